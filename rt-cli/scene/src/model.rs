@@ -1,0 +1,139 @@
+//! The scene as data.
+
+use std::collections::BTreeMap;
+
+use glam::Vec3;
+
+/// Everything a renderer needs to know of a scene. Coordinates are in world space, right-handed,
+/// in the units of the file.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// What the scene was opened as: a file's name without its folders, or `spd:NAME:SIZE`.
+    pub name: String,
+    /// All triangles, from whatever kind of flat primitive they came.
+    pub mesh: Mesh,
+    /// Spheres: kept as such, never tessellated.
+    pub spheres: Vec<Sphere>,
+    /// The materials that triangles and spheres index. Never empty in a scene that was opened.
+    pub materials: Vec<Material>,
+    /// Point lights. Empty where the file states none.
+    pub lights: Vec<Light>,
+    /// The colour of rays that hit nothing, linear, if the file states one.
+    pub background: Option<Vec3>,
+    /// The camera, if the file states one.
+    pub view: Option<View>,
+    /// What the reader counted, skipped and warns of.
+    pub facts: Facts,
+}
+
+/// Triangles with shared vertices.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Vertex positions; every component is finite.
+    pub positions: Vec<Vec3>,
+    /// Vertex normals, as stated (not necessarily of unit length); every component is finite.
+    pub normals: Vec<Vec3>,
+    /// The triangles. Some may have no area.
+    pub triangles: Vec<Triangle>,
+}
+
+/// Three corners, counterclockwise seen from the front.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Triangle {
+    /// Indices into [`Mesh::positions`].
+    pub position: [u32; 3],
+    /// Indices into [`Mesh::normals`], where the file gives normals.
+    pub normal: Option<[u32; 3]>,
+    /// Index into [`Scene::materials`].
+    pub material: u32,
+}
+
+/// A sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Centre; finite.
+    pub center: Vec3,
+    /// Radius; finite and greater than zero.
+    pub radius: f32,
+    /// Index into [`Scene::materials`].
+    pub material: u32,
+}
+
+/// Phong's reflection model, in linear colour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// The name in the file; empty where it has none.
+    pub name: String,
+    /// Diffuse reflectance.
+    pub diffuse: Vec3,
+    /// Specular reflectance: the strength of highlights.
+    pub specular: Vec3,
+    /// The cosine exponent of highlights.
+    pub shininess: f32,
+    /// What a mirror-reflected ray contributes. Zero: no ray is sent.
+    pub mirror: Vec3,
+    /// Light that the surface itself gives off.
+    pub emission: Vec3,
+}
+
+impl Default for Material {
+    /// Light grey, matt.
+    fn default() -> Self {
+        Material {
+            name: String::new(),
+            diffuse: Vec3::splat(0.8),
+            specular: Vec3::ZERO,
+            shininess: 1.0,
+            mirror: Vec3::ZERO,
+            emission: Vec3::ZERO,
+        }
+    }
+}
+
+/// A point light without attenuation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Where it is.
+    pub position: Vec3,
+    /// Its colour times its intensity, linear.
+    pub color: Vec3,
+}
+
+/// A pinhole camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The centre of projection.
+    pub eye: Vec3,
+    /// The point in the middle of the picture.
+    pub target: Vec3,
+    /// The direction that is up in the picture; need not be of unit length, nor perpendicular to
+    /// the line of sight.
+    pub up: Vec3,
+    /// The full vertical angle of view, in degrees.
+    pub fov_y: f32,
+    /// The picture's width and height in pixels, where the file states them.
+    pub size: Option<(u32, u32)>,
+}
+
+/// What a reader found, for `rt info` and for warnings.
+#[derive(Clone, Debug, Default)]
+pub struct Facts {
+    /// How many primitives of each kind the file states (`polygon`, `sphere`, …), before anything
+    /// is triangulated.
+    pub stated: BTreeMap<&'static str, u64>,
+    /// What was left out of the scene.
+    pub skipped: Vec<Skipped>,
+    /// What a user should know, one sentence each, with the place where it applies.
+    pub warnings: Vec<String>,
+}
+
+/// Statements that a reader left out, all for one reason.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Skipped {
+    /// The kind of statement, for example `l` or `face`.
+    pub what: String,
+    /// Why it was left out.
+    pub why: String,
+    /// How many there were.
+    pub count: u64,
+}

@@ -1,0 +1,41 @@
+//! AVX2 with all of x86-64-v3: registers of eight lanes.
+
+use super::super::{proven, token};
+use super::xmm::{self, Xmm};
+use super::ymm::{self, Ymm};
+use crate::{Level, Simd};
+
+token! {
+    /// The token of the level `avx2`.
+    Avx2, is_x86_feature_detected,
+    ["avx2", "fma", "bmi1", "bmi2", "lzcnt", "popcnt", "f16c", "movbe"]
+}
+
+impl Simd for Avx2 {
+    type f32x4 = xmm::f32x4<Self>;
+    type i32x4 = xmm::i32x4<Self>;
+    type u32x4 = xmm::u32x4<Self>;
+    type mask32x4 = xmm::mask32x4<Self>;
+    type f32x8 = ymm::f32x8<Self>;
+    type i32x8 = ymm::i32x8<Self>;
+    type u32x8 = ymm::u32x8<Self>;
+    type mask32x8 = ymm::mask32x8<Self>;
+    type f32s = Self::f32x8;
+
+    #[inline(always)]
+    fn level(self) -> Level {
+        Level::Avx2(self)
+    }
+
+    #[inline(always)]
+    fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt,f16c,movbe")]
+        fn avx2<R>(f: impl FnOnce() -> R) -> R {
+            f()
+        }
+        proven!(avx2(f))
+    }
+}
+
+impl Xmm for Avx2 {}
+impl Ymm for Avx2 {}

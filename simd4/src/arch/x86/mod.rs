@@ -1,0 +1,47 @@
+//! SSE2, SSE4.1 and AVX2. The 128-bit types are one text for all three (`xmm`); what differs
+//! between the levels stands in the level's own file.
+
+mod avx2;
+mod sse2;
+mod sse41;
+mod xmm;
+mod ymm;
+
+pub use avx2::Avx2;
+pub use sse2::Sse2;
+pub use sse41::Sse41;
+
+/// The best level that the build guarantees.
+pub(super) type Best = best::Best;
+
+#[cfg(all(
+    target_feature = "avx2",
+    target_feature = "fma",
+    target_feature = "bmi1",
+    target_feature = "bmi2",
+    target_feature = "lzcnt",
+    target_feature = "popcnt",
+    target_feature = "f16c",
+    target_feature = "movbe"
+))]
+mod best {
+    pub(in super::super) use super::Avx2 as Best;
+}
+#[cfg(not(all(
+    target_feature = "avx2",
+    target_feature = "fma",
+    target_feature = "bmi1",
+    target_feature = "bmi2",
+    target_feature = "lzcnt",
+    target_feature = "popcnt",
+    target_feature = "f16c",
+    target_feature = "movbe"
+)))]
+mod best {
+    #[cfg(not(target_feature = "sse2"))]
+    pub(in super::super) use super::super::scalar::Scalar as Best;
+    #[cfg(all(target_feature = "sse2", not(target_feature = "sse4.1")))]
+    pub(in super::super) use super::Sse2 as Best;
+    #[cfg(target_feature = "sse4.1")]
+    pub(in super::super) use super::Sse41 as Best;
+}

@@ -1,0 +1,80 @@
+//! SSE2: the baseline of x86-64, and what it lacks of the later levels.
+
+#[cfg(target_arch = "x86")]
+use core::arch::x86::*;
+#[cfg(target_arch = "x86_64")]
+use core::arch::x86_64::*;
+
+use super::super::{proven, token};
+use super::xmm::{self, Xmm};
+use crate::{Halves, Level, Simd};
+
+token! {
+    /// The token of the level `sse2`.
+    Sse2, is_x86_feature_detected, ["sse2"]
+}
+
+impl Simd for Sse2 {
+    type f32x4 = xmm::f32x4<Self>;
+    type i32x4 = xmm::i32x4<Self>;
+    type u32x4 = xmm::u32x4<Self>;
+    type mask32x4 = xmm::mask32x4<Self>;
+    type f32x8 = Halves<Self::f32x4>;
+    type i32x8 = Halves<Self::i32x4>;
+    type u32x8 = Halves<Self::u32x4>;
+    type mask32x8 = Halves<Self::mask32x4>;
+    type f32s = Self::f32x4;
+
+    #[inline(always)]
+    fn level(self) -> Level {
+        Level::Sse2(self)
+    }
+
+    #[inline(always)]
+    fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
+        #[target_feature(enable = "sse2")]
+        fn sse2<R>(f: impl FnOnce() -> R) -> R {
+            f()
+        }
+        proven!(sse2(f))
+    }
+}
+
+impl Xmm for Sse2 {
+    #[inline(always)]
+    fn blend(self, m: __m128, a: __m128, b: __m128) -> __m128 {
+        proven!(_mm_or_ps(_mm_and_ps(m, a), _mm_andnot_ps(m, b)))
+    }
+    #[inline(always)]
+    fn blend_i32(self, m: __m128i, a: __m128i, b: __m128i) -> __m128i {
+        proven!(_mm_or_si128(_mm_and_si128(m, a), _mm_andnot_si128(m, b)))
+    }
+    #[inline(always)]
+    fn min_i32(self, a: __m128i, b: __m128i) -> __m128i {
+        self.blend_i32(proven!(_mm_cmplt_epi32(a, b)), a, b)
+    }
+    #[inline(always)]
+    fn max_i32(self, a: __m128i, b: __m128i) -> __m128i {
+        self.blend_i32(proven!(_mm_cmpgt_epi32(a, b)), a, b)
+    }
+    #[inline(always)]
+    fn min_u32(self, a: __m128i, b: __m128i) -> __m128i {
+        self.blend_i32(xmm::lt_u32(self, a, b), a, b)
+    }
+    #[inline(always)]
+    fn max_u32(self, a: __m128i, b: __m128i) -> __m128i {
+        self.blend_i32(xmm::lt_u32(self, a, b), b, a)
+    }
+    #[inline(always)]
+    fn mul_i32(self, a: __m128i, b: __m128i) -> __m128i {
+        proven!({
+            // The products of the even lanes, and of the odd ones moved to even places.
+            let even = _mm_mul_epu32(a, b);
+            let odd = _mm_mul_epu32(_mm_srli_epi64::<32>(a), _mm_srli_epi64::<32>(b));
+            // Their low words, put in place again.
+            let even = _mm_shuffle_epi32::<0b_00_00_10_00>(even);
+            let odd = _mm_shuffle_epi32::<0b_00_00_10_00>(odd);
+            _mm_unpacklo_epi32(even, odd)
+        })
+    }
+}

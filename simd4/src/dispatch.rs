@@ -1,0 +1,40 @@
+//! From a [`Level`](crate::Level) to a kernel compiled for it.
+
+/// Compiles an expression once for each level and runs the one that a [`Level`](crate::Level)
+/// names.
+///
+/// `dispatch!(level, s => kernel(s, …))` binds `s` to the level's token and evaluates to the value
+/// of the expression. Dispatch once, outside the loop: hand the kernel a batch. The expression
+/// is the body of a closure: `return` and `?` leave it alone and not the function around it.
+#[macro_export]
+macro_rules! dispatch {
+    ($level:expr, $s:ident => $body:expr) => {
+        match $level {
+            $crate::Level::Scalar($s) => $crate::__vectorize!($s, $body),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            $crate::Level::Sse2($s) => $crate::__vectorize!($s, $body),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            $crate::Level::Sse41($s) => $crate::__vectorize!($s, $body),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            $crate::Level::Avx2($s) => $crate::__vectorize!($s, $body),
+            #[cfg(target_arch = "aarch64")]
+            $crate::Level::Neon($s) => $crate::__vectorize!($s, $body),
+            // `Level` may grow; this macro grows with it.
+            #[allow(unreachable_patterns)]
+            _ => unreachable!("a level without an arm in dispatch!"),
+        }
+    };
+}
+
+/// One arm of [`dispatch!`]. The attribute on the closure is what keeps it out of the pit.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __vectorize {
+    ($s:ident, $body:expr) => {
+        $crate::Simd::vectorize(
+            $s,
+            #[inline(always)]
+            || $body,
+        )
+    };
+}

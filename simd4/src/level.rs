@@ -1,0 +1,138 @@
+//! Which levels there are, and which of them this CPU has.
+
+use core::fmt;
+
+use crate::Simd;
+use crate::arch::tokens::*;
+
+/// A level that this CPU has. The token inside is the proof: no other code can make one.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub enum Level {
+    /// Plain scalar code, in every build. AltiVec and other vector units that stable Rust does not
+    /// reach run this one, as the compiler vectorises it.
+    Scalar(Scalar),
+    /// SSE2: the baseline of x86-64.
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    Sse2(Sse2),
+    /// SSE4.1.
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    Sse41(Sse41),
+    /// AVX2 with all of x86-64-v3: FMA, BMI1, BMI2, LZCNT, POPCNT, F16C, MOVBE.
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    Avx2(Avx2),
+    /// NEON: the baseline of AArch64.
+    #[cfg(target_arch = "aarch64")]
+    Neon(Neon),
+}
+
+/// Every name that [`Level::named`] knows, whatever the architecture.
+const NAMES: [&str; 5] = ["scalar", "sse2", "sse4.1", "avx2", "neon"];
+
+impl Level {
+    /// All levels of this architecture, weakest first; `None` for those that the CPU lacks.
+    fn detect() -> impl DoubleEndedIterator<Item = Option<Level>> {
+        [
+            Some(Level::Scalar(Scalar::new())),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Sse2::detect().map(Level::Sse2),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Sse41::detect().map(Level::Sse41),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Avx2::detect().map(Level::Avx2),
+            #[cfg(target_arch = "aarch64")]
+            Neon::detect().map(Level::Neon),
+        ]
+        .into_iter()
+    }
+
+    /// The levels that this CPU has, weakest first. Never empty: the first is always `scalar`.
+    ///
+    /// Without the feature `std` these are the ones that the build guarantees.
+    pub fn available() -> impl DoubleEndedIterator<Item = Level> {
+        Self::detect().flatten()
+    }
+
+    /// The best level of this CPU, or the one that the environment variable `SIMD4_LEVEL` names.
+    ///
+    /// # Errors
+    /// If `SIMD4_LEVEL` names no level, or one that this CPU lacks.
+    pub fn best() -> Result<Level, LevelError> {
+        #[cfg(feature = "std")]
+        if let Some(name) = std::env::var_os("SIMD4_LEVEL") {
+            return Self::named(&name.to_string_lossy());
+        }
+        Ok(Self::available().next_back().expect("scalar is always there"))
+    }
+
+    /// The level of that [name](Level::name).
+    ///
+    /// # Errors
+    /// If there is no such level, or this CPU lacks it. The error lists those it has.
+    pub fn named(name: &str) -> Result<Level, LevelError> {
+        let known = NAMES.iter().find(|known| **known == name);
+        Self::available()
+            .find(|level| level.name() == name)
+            .ok_or(LevelError { lacking: known.copied() })
+    }
+
+    /// `scalar`, `sse2`, `sse4.1`, `avx2` or `neon`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Level::Scalar(_) => "scalar",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Sse2(_) => "sse2",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Sse41(_) => "sse4.1",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx2(_) => "avx2",
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(_) => "neon",
+        }
+    }
+
+    /// The number of `f32` lanes in one register of this level, [`Simd::LANES`].
+    pub fn lanes(self) -> usize {
+        #[inline(always)]
+        fn lanes<S: Simd>(_: S) -> usize {
+            S::LANES
+        }
+        crate::dispatch!(self, s => lanes(s))
+    }
+}
+
+impl PartialEq for Level {
+    fn eq(&self, other: &Level) -> bool {
+        self.name() == other.name()
+    }
+}
+
+impl Eq for Level {}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A level was asked for that does not exist or that this CPU lacks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelError {
+    /// The level's name, where there is one of that name.
+    lacking: Option<&'static str>,
+}
+
+impl fmt::Display for LevelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.lacking {
+            Some(name) => write!(f, "this CPU lacks the level {name}; it has")?,
+            None => write!(f, "there is no such level; this CPU has")?,
+        }
+        for (i, level) in Level::available().enumerate() {
+            write!(f, "{} {level}", if i == 0 { "" } else { "," })?;
+        }
+        Ok(())
+    }
+}
+
+impl core::error::Error for LevelError {}
