@@ -1,1 +1,31 @@
-fn main() {}
+//! `rt`: renders, inspects and measures scenes. Thin: what it does is done by rt-scene and
+//! rt-render.
+#![forbid(unsafe_code)]
+
+mod args;
+mod cmd;
+mod error;
+mod output;
+mod report;
+mod ui;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    let args = args::Args::parse();
+    let done = match &args.command {
+        args::Command::Render(args) => cmd::render::run(args),
+        args::Command::Gen(args) => cmd::generate::run(args),
+        args::Command::Info(args) => cmd::info::run(args),
+        args::Command::Bench(args) => cmd::bench::run(args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            ui::error(&error);
+            ExitCode::FAILURE
+        }
+    }
+}

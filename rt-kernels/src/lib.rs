@@ -1,1 +1,65 @@
+//! Ray tracing kernels that give one answer and leak nothing.
+//!
+//! Pure geometry on the lanes of [`simd4`]: no I/O, no clocks, no threads of its own. A caller
+//! hands a batch of [`Rays`] to an [`Accelerator`] and says [how](Exec) to run it; the bits that
+//! come back are the same for every accelerator, packet size, level and machine.
+//!
+//! ```
+//! use glam::Vec3;
+//! use rt_kernels::{Accelerator, Bvh, Exec, Hits, Primitives, Ray, Rays, Sequential, Stats};
+//! use rt_kernels::geom::Sphere;
+//!
+//! let ball = Sphere { center: Vec3::ZERO, radius: 1.0 };
+//! let scene = Primitives { triangles: vec![], spheres: vec![ball] };
+//! let bvh = Bvh::build(&scene, &Sequential)?;
+//!
+//! let mut rays = Rays::new();
+//! rays.push(Ray::new(Vec3::new(0.0, 0.0, 5.0), Vec3::NEG_Z));
+//! let mut hits = Hits::new();
+//! bvh.closest(Exec::best()?, &rays, &mut hits, &mut Stats::default());
+//! assert_eq!(hits.get(0).map(|hit| hit.t), Some(4.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Why the answer is one
+//!
+//! What a ray hits is defined by each primitive alone, never by the order of visits:
+//!
+//! 1. Every primitive has its **own box**: its bounds, [padded](geom::Aabb::padded) by more than
+//!    the error of its kernel. Nodes are bounded by unions of own boxes.
+//! 2. A ray hits a primitive if the kernel says so **and** the ray passes the own box, by the same
+//!    [slab expression](slab) that tests nodes. The hit's `t` is the greater of the kernel's and
+//!    the entry into the own box.
+//! 3. The closest hit is the least `(t, primitive)`; equal `t` go to the lowest primitive.
+//!
+//! Every operation of the slab expression is monotone under rounding, so nested boxes have nested
+//! intervals, bit for bit. No node above the winner can then be entered later than the winner's
+//! `t`, and pruning on `entry > best` never loses it. Padding alone would not do: the `t` of an
+//! unclamped hit can fall before the entry into its own box by any amount, and whether it is found
+//! would depend on what was found before.
+//!
+//! # The range
+//!
+//! Coordinates up to 2^40 in magnitude, and directions whose greatest component is between 2^-20
+//! and 2^20, keep every product of the kernels finite; primitives larger than 2^-40 keep them from
+//! vanishing. A scene outside this range is brought in by an exact power of two before it is built.
 
+mod brute;
+pub mod bvh;
+pub mod camera;
+pub mod geom;
+pub mod packet;
+mod primitives;
+pub mod quadric;
+pub mod slab;
+mod stats;
+mod trace;
+pub mod tri;
+
+pub use brute::Brute;
+pub use bvh::{BuildError, Bvh, Join, Sequential};
+pub use geom::{Hit, Ray};
+pub use packet::{Hits, Rays};
+pub use primitives::Primitives;
+pub use stats::Stats;
+pub use trace::{Accelerator, Exec, PacketSize};

@@ -1,0 +1,24 @@
+//! From a scene to pixels and numbers.
+//!
+//! A [`World`] is a scene made ready to trace; a [`Job`] says what picture of it is wanted;
+//! [`render`] makes the [`Film`] and reports what it took. The pixels are the same for every
+//! [`AccelKind`], level, packet size and number of threads.
+#![forbid(unsafe_code)]
+
+mod exec;
+mod film;
+mod fit;
+mod integrate;
+mod job;
+pub mod measure;
+mod shade;
+mod world;
+
+pub use exec::{KindReport, Progress, Report, Silent, render};
+pub use film::Film;
+pub use fit::fitted_view;
+pub use integrate::{Integrator, RayKind};
+pub use job::{Job, RenderError};
+pub use rt_kernels::{Exec, PacketSize};
+pub use simd4::{Level, LevelError};
+pub use world::{AccelKind, World};

@@ -3,8 +3,41 @@
 //! [`Scene`] is plain data: a triangle mesh, quadrics that stay quadrics, materials, lights and a
 //! view. It comes from a file ([`obj`], [`nff`]) or from a procedure ([`spd`]); [`open`] takes
 //! either by name.
+//!
+//! Readers take what is found in the wild and say what they left out ([`Facts`]). What they cannot
+//! take they report with its place ([`Diagnostic`]). They neither panic nor trust a count that a
+//! file claims. The same input gives the same scene on every machine.
 #![forbid(unsafe_code)]
 
+mod diag;
 mod model;
+pub mod nff;
+pub mod obj;
+pub mod spd;
+mod text;
+mod triangulate;
 
+use std::path::Path;
+
+pub use diag::{Diagnostic, Error};
 pub use model::{Facts, Light, Material, Mesh, Scene, Skipped, Sphere, Triangle, View};
+
+/// Opens a scene by name: `spd:NAME[:SIZE]` is generated, anything else is a file whose extension
+/// tells its format.
+pub fn open(name: &str) -> Result<Scene, Error> {
+    if let Some(procedure) = name.strip_prefix("spd:") {
+        return spd::open(procedure);
+    }
+    let path = Path::new(name);
+    let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+    match extension.as_ref().and_then(|extension| extension.to_str()) {
+        Some("obj") => obj::read(path),
+        Some("nff") => nff::read(path),
+        _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj or .nff" }),
+    }
+}
+
+/// A file's name without its folders.
+fn base_name(name: &str) -> String {
+    Path::new(name).file_name().map_or(name.into(), |base| base.to_string_lossy()).into_owned()
+}

@@ -26,6 +26,34 @@ pub struct Scene {
     pub facts: Facts,
 }
 
+impl Scene {
+    /// The least and the greatest coordinates of triangles and spheres; none if there are neither.
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let points = self.mesh.positions.iter().map(|&point| (point, point));
+        let spheres = self.spheres.iter().map(|sphere| {
+            let radius = Vec3::splat(sphere.radius);
+            (sphere.center - radius, sphere.center + radius)
+        });
+        points.chain(spheres).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+
+    /// What every reader does last: looks the scene over.
+    pub(crate) fn finish(&mut self) {
+        if self.materials.is_empty() {
+            self.materials.push(Material::default());
+        }
+        let flat = self.mesh.triangles.iter().filter(|triangle| self.mesh.area(triangle) == 0.0);
+        match flat.count() {
+            0 => {}
+            1 => self.facts.warnings.push("1 triangle has no area and cannot be seen".to_owned()),
+            count => {
+                let warning = format!("{count} triangles have no area and cannot be seen");
+                self.facts.warnings.push(warning);
+            }
+        }
+    }
+}
+
 /// Triangles with shared vertices.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
@@ -35,6 +63,14 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// The triangles. Some may have no area.
     pub triangles: Vec<Triangle>,
+}
+
+impl Mesh {
+    /// A triangle's area, in double precision: it vanishes only if the corners are on a line.
+    fn area(&self, triangle: &Triangle) -> f64 {
+        let [a, b, c] = triangle.position.map(|index| self.positions[index as usize].as_dvec3());
+        (b - a).cross(c - a).length() / 2.0
+    }
 }
 
 /// Three corners, counterclockwise seen from the front.

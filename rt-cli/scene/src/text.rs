@@ -170,7 +170,8 @@ impl<'a> Lexer<'a> {
         let at = self.at + line.iter().take_while(|b| b.is_ascii_whitespace()).count();
         self.at += line.len();
         let name = line.trim_ascii();
-        let comment = name.windows(2).position(|two| two[0].is_ascii_whitespace() && two[1] == b'#');
+        let comment =
+            name.windows(2).position(|two| two[0].is_ascii_whitespace() && two[1] == b'#');
         Word { at, text: name[..comment.unwrap_or(name.len())].trim_ascii_end() }
     }
 

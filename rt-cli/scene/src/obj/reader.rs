@@ -1,44 +1,77 @@
 //! Checks an OBJ text statement by statement and hands on what [`tobj`] understands.
 //!
 //! What comes out is ASCII and holds nothing but good `v`, `vn` and `f` lines. Names, texture
-//! coordinates and everything else stay here, so that one mesh comes of it whose vertices the
+//! coordinates and everything else stay here: so one mesh comes of it, whose vertices the
 //! materials share.
 
 use std::collections::HashMap;
 use std::io::{self, BufRead, Read};
 
-use crate::diag::{Diagnostic, Error, MAX_DIAGNOSTICS, plural};
+use crate::diag::{Diagnostic, Error, MAX_DIAGNOSTICS};
 use crate::model::Skipped;
 use crate::text::{Lexer, Source, Word};
 
 /// Clean text is made in pieces of about this many bytes.
 const PIECE: usize = 1 << 16;
 
-/// What a face's index counts in: the order is that of a corner, `position/texture/normal`.
-const LISTS: [(&str, &str); 3] =
-    [("vertex", "vertices"), ("texture coordinate", "texture coordinates"), ("normal", "normals")];
+/// What a corner's indices count, in the order of `position/texture/normal`: the statement, the
+/// numbers it needs, and what messages call one and many.
+const LISTS: [(&str, usize, &str, &str); 3] = [
+    ("v", 3, "vertex", "vertices"),
+    ("vt", 1, "texture coordinate", "texture coordinates"),
+    ("vn", 3, "normal", "normals"),
+];
 
-/// Statements that draw something which is not drawn here.
-const NOT_DRAWN: [(&[u8], &str); 8] = [
-    (b"l", "lines are not drawn"),
-    (b"p", "points are not drawn"),
-    (b"curv", "free-form curves are not drawn"),
-    (b"curv2", "free-form curves are not drawn"),
-    (b"surf", "free-form surfaces are not drawn"),
-    (b"bzp", "free-form surfaces are not drawn"),
-    (b"bsp", "free-form surfaces are not drawn"),
-    (b"call", "other OBJ files are not included"),
+const POSITION: usize = 0;
+const TEXTURE: usize = 1;
+const NORMAL: usize = 2;
+
+/// Statements that draw what is not drawn here.
+const NOT_DRAWN: [(&str, &str); 10] = [
+    ("l", "lines are not drawn"),
+    ("p", "points are not drawn"),
+    ("curv", "free-form curves are not drawn"),
+    ("curv2", "free-form curves are not drawn"),
+    ("surf", "free-form surfaces are not drawn"),
+    ("cdc", "free-form curves are not drawn"),
+    ("cdp", "free-form surfaces are not drawn"),
+    ("bzp", "free-form surfaces are not drawn"),
+    ("bsp", "free-form surfaces are not drawn"),
+    ("call", "other OBJ files are not included"),
 ];
 
 /// Statements that draw nothing by themselves.
-const SILENT: [&[u8]; 39] = [
-    b"o", b"g", b"s", b"mg", b"vp", b"deg", b"bmat", b"step", b"cstype", b"parm", b"trim", b"hole",
-    b"scrv", b"sp", b"end", b"con", b"bevel", b"c_interp", b"d_interp", b"lod", b"usemap",
-    b"maplib", b"shadow_obj", b"trace_obj", b"ctech", b"stech", b"csh", b"cdc", b"cdp", b"res",
-    b"vertex", b"x", b"y", b"z", b"u", b"w", b"group", b"off", b"on",
+const SILENT: [&str; 27] = [
+    "o",
+    "g",
+    "s",
+    "mg",
+    "vp",
+    "deg",
+    "bmat",
+    "step",
+    "cstype",
+    "parm",
+    "trim",
+    "hole",
+    "scrv",
+    "sp",
+    "end",
+    "con",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "usemap",
+    "maplib",
+    "shadow_obj",
+    "trace_obj",
+    "ctech",
+    "stech",
+    "csh",
 ];
 
-/// Faces from `first` on, up to the next run, have this material and do or don't have normals.
+/// Faces from `first` up to the next run have this material, and do or don't have normals.
 #[derive(Clone, Copy)]
 pub(super) struct Run {
     pub(super) first: usize,
@@ -48,19 +81,20 @@ pub(super) struct Run {
 }
 
 /// What the clean text does not say.
+#[derive(Default)]
 pub(super) struct Outline<'a> {
     /// How many positions, texture coordinates and normals the file states.
     pub(super) counts: [usize; 3],
     pub(super) faces: usize,
     pub(super) runs: Vec<Run>,
-    /// What `usemtl` names, in the order of first use.
+    /// What `usemtl` names, each name once.
     pub(super) names: Vec<Word<'a>>,
-    /// What `mtllib` names.
+    /// What `mtllib` names, line by line.
     pub(super) libraries: Vec<Word<'a>>,
     pub(super) skipped: Vec<Skipped>,
 }
 
-/// The checker; as a reader, it gives the clean text.
+/// The checker; read from, it gives the clean text.
 pub(super) struct Reader<'a> {
     source: Source<'a>,
     lexer: Lexer<'a>,
@@ -72,10 +106,11 @@ pub(super) struct Reader<'a> {
     material: Option<u32>,
     materials: HashMap<&'a [u8], u32>,
     not_drawn: [u64; NOT_DRAWN.len()],
+    /// The first unknown statement, and how many there are.
     unknown: Option<(Word<'a>, u64)>,
-    /// The highest index that faces state, for each list: they may come before what they name.
+    /// The highest index stated, for each list: a face may come before what it names.
     highest: [i64; 3],
-    /// The lists' lengths, once they are known.
+    /// The lengths of the lists, once they are known.
     limits: [i64; 3],
 }
 
@@ -84,18 +119,11 @@ impl<'a> Reader<'a> {
         Reader {
             source,
             lexer: Lexer::new(source.text),
-            clean: Vec::with_capacity(PIECE.min(source.text.len())),
+            clean: Vec::new(),
             consumed: 0,
-            ended: false,
+            ended: source.text.is_empty(),
             errors: Vec::new(),
-            outline: Outline {
-                counts: [0; 3],
-                faces: 0,
-                runs: Vec::new(),
-                names: Vec::new(),
-                libraries: Vec::new(),
-                skipped: Vec::new(),
-            },
+            outline: Outline::default(),
             material: None,
             materials: HashMap::new(),
             not_drawn: [0; NOT_DRAWN.len()],
@@ -105,82 +133,235 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// To be called when everything has been read.
+    /// What is known when all of the file has been read.
     pub(super) fn finish(mut self) -> Result<Outline<'a>, Error> {
+        self.check_rest();
         if !self.errors.is_empty() {
             return Err(Error::Invalid(self.errors));
         }
         if self.outline.faces == 0 {
-            let message = "no faces: an OBJ needs 'f' statements to show anything";
+            let message = "no faces: nothing to draw without 'f' statements";
             return Err(Error::Invalid(vec![Diagnostic::whole(self.source.name, message)]));
         }
-        for (&(what, why), &count) in NOT_DRAWN.iter().zip(&self.not_drawn) {
-            let what = String::from_utf8_lossy(what).into_owned();
-            self.outline.skipped.extend((count > 0).then(|| Skipped { what, why: why.to_owned(), count }));
+        let mut skip = |what: &str, why: String, count| {
+            self.outline.skipped.push(Skipped { what: what.to_owned(), why, count });
+        };
+        for ((what, why), count) in NOT_DRAWN.into_iter().zip(self.not_drawn) {
+            if count > 0 {
+                skip(what, why.to_owned(), count);
+            }
         }
         if let Some((first, count)) = self.unknown {
-            let place = self.source.warning(first.at, first.quoted());
-            let why = format!("not OBJ that is known here; the first is {place}");
-            self.outline.skipped.push(Skipped { what: "other statement".to_owned(), why, count });
+            let first = self.source.warning(first.at, first.quoted());
+            skip("other statement", format!("not known; the first is {first}"), count);
         }
         Ok(self.outline)
     }
 
-    /// Fills `clean`; nothing more comes if it stays empty.
-    fn refill(&mut self) {
-        self.clean.clear();
-        self.consumed = 0;
-        while !self.ended && (self.clean.len() < PIECE || !self.errors.is_empty()) {
-            self.line();
-            self.ended |= !self.lexer.next_line() || self.errors.len() == MAX_DIAGNOSTICS;
-        }
-        let counts = self.outline.counts.map(|count| count as i64);
-        let late = self.highest.iter().zip(counts).any(|(&index, count)| index > count);
-        if self.ended && late && self.limits != counts {
-            // Some index never came true. To say which, read again, knowing how long the lists are.
-            let mut again = Reader { limits: counts, ..Reader::new(self.source) };
-            while !again.ended {
-                again.refill();
-            }
-            self.errors = again.errors;
-        }
-        if !self.errors.is_empty() {
-            self.clean.clear();
+    /// Goes through the rest of the file for its errors only.
+    fn check_rest(&mut self) {
+        while !self.ended {
+            self.refill();
         }
     }
 
-    fn line(&mut self) {
+    /// Fills `clean`. If it stays empty, the file has ended or is in error.
+    fn refill(&mut self) {
+        self.clean.clear();
+        self.consumed = 0;
+        while !self.ended && self.clean.len() < PIECE {
+            self.statement();
+            if !self.errors.is_empty() {
+                self.clean.clear();
+            }
+            self.ended = self.errors.len() == MAX_DIAGNOSTICS || !self.lexer.next_line();
+        }
+        if self.ended && self.errors.len() < MAX_DIAGNOSTICS {
+            self.check_highest();
+        }
+    }
+
+    /// If an index never came true, reads again, knowing how long the lists are, to say where.
+    fn check_highest(&mut self) {
+        let counts = self.outline.counts.map(|count| count as i64);
+        let late = self.highest.iter().zip(counts).any(|(&index, count)| index > count);
+        if late && self.limits != counts {
+            let mut again = Reader { limits: counts, ..Reader::new(self.source) };
+            again.check_rest();
+            self.errors = again.errors;
+        }
+    }
+
+    fn statement(&mut self) {
         let Some(keyword) = self.lexer.word() else { return };
-        let before = self.clean.len();
         let checked = match keyword.text {
-            b"v" => self.numbers(keyword, 3).map(|()| self.outline.counts[0] += 1),
-            b"vt" => self.numbers(keyword, 1).map(|()| self.outline.counts[1] += 1),
-            b"vn" => self.numbers(keyword, 3).map(|()| self.outline.counts[2] += 1),
+            b"v" => self.element(POSITION),
+            b"vt" => self.element(TEXTURE),
+            b"vn" => self.element(NORMAL),
+            // `fo` is what old files call a face.
             b"f" | b"fo" => self.face(),
-            b"usemtl" => {
-                self.use_material();
-                Ok(())
-            }
-            b"mtllib" => {
-                let names = self.lexer.rest();
-                self.outline.libraries.push(names);
-                Ok(())
-            }
-            other => {
-                self.pass_over(keyword, other);
+            _ => {
+                self.other(keyword);
                 Ok(())
             }
         };
-        if let Err(diagnostic) = checked {
+        self.errors.extend(checked.err());
+    }
+
+    fn element(&mut self, list: usize) -> Result<(), Diagnostic> {
+        let (keyword, wanted, _, many) = LISTS[list];
+        // Even a bad element counts, or every index after it would look wrong too.
+        self.outline.counts[list] += 1;
+        if self.outline.counts[list] > u32::MAX as usize {
+            return Err(self.error(self.lexer.at(), format!("more than {} {many}", u32::MAX)));
+        }
+        let before = self.clean.len();
+        self.clean.extend_from_slice(keyword.as_bytes());
+        for found in 0..wanted {
+            let Some(word) = self.lexer.word() else {
+                let s = if wanted == 1 { "" } else { "s" };
+                let message =
+                    format!("expected {wanted} number{s} after '{keyword}', found {found}");
+                return Err(self.error(self.lexer.at(), message));
+            };
+            word.number().map_err(|message| self.error(word.at, message))?;
+            self.hand_on(word);
+        }
+        if list == TEXTURE {
             self.clean.truncate(before);
-            self.errors.push(diagnostic);
-            // A bad element counts all the same, or every index after it would look wrong too.
-            match keyword.text {
-                b"v" => self.outline.counts[0] += 1,
-                b"vt" => self.outline.counts[1] += 1,
-                b"vn" => self.outline.counts[2] += 1,
-                _ => {}
+        } else {
+            self.clean.push(b'\n');
+        }
+        Ok(())
+    }
+
+    fn face(&mut self) -> Result<(), Diagnostic> {
+        self.clean.push(b'f');
+        let (mut corners, mut normals) = (0, true);
+        while let Some(word) = self.lexer.word() {
+            normals &= self.corner(word)?;
+            self.hand_on(word);
+            corners += 1;
+        }
+        if corners < 3 {
+            let message = format!("expected 3 or more corners after 'f', found {corners}");
+            return Err(self.error(self.lexer.at(), message));
+        }
+        self.clean.push(b'\n');
+        let run = Run { first: self.outline.faces, material: self.material, normals };
+        let last = self.outline.runs.last();
+        if last.is_none_or(|last| (last.material, last.normals) != (run.material, normals)) {
+            self.outline.runs.push(run);
+        }
+        self.outline.faces += 1;
+        Ok(())
+    }
+
+    /// Checks `v`, `v/t`, `v//n` or `v/t/n`; says whether there is a normal.
+    fn corner(&mut self, word: Word<'a>) -> Result<bool, Diagnostic> {
+        let malformed = || {
+            let example = "a corner such as 1, 1/2, 1//3 or 1/2/3";
+            self.error(word.at, format!("expected {example}, found {}", word.quoted()))
+        };
+        let mut stated = [None; 3];
+        for (list, part) in word.text.split(|&byte| byte == b'/').enumerate() {
+            let slot = stated.get_mut(list).ok_or_else(malformed)?;
+            if !part.is_empty() {
+                let part = Word { at: word.at, text: part };
+                let digits = part.text.strip_prefix(b"-").unwrap_or(part.text);
+                let index = match part.parse::<i64>() {
+                    None if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) => {
+                        let message = format!("index {} is out of range", part.quoted());
+                        return Err(self.error(word.at, message));
+                    }
+                    index => index.ok_or_else(malformed)?,
+                };
+                *slot = Some(index);
             }
         }
+        if stated[POSITION].is_none() {
+            return Err(malformed());
+        }
+        for (list, index) in stated.into_iter().enumerate() {
+            if let Some(index) = index {
+                self.check_index(list, index).map_err(|message| self.error(word.at, message))?;
+            }
+        }
+        Ok(stated[NORMAL].is_some())
+    }
+
+    fn check_index(&mut self, list: usize, index: i64) -> Result<(), String> {
+        let (_, _, one, many) = LISTS[list];
+        let so_far = self.outline.counts[list] as i64;
+        self.highest[list] = self.highest[list].max(index);
+        if index == 0 {
+            Err(format!("{one} index 0 is out of range: indices start at 1"))
+        } else if index < -so_far {
+            Err(format!("{one} index {index} is out of range: there are {so_far} {many} so far"))
+        } else if index > self.limits[list] {
+            let total = self.limits[list];
+            Err(format!("{one} index {index} is out of range: the file has {total} {many}"))
+        } else {
+            Ok(())
+        }
+    }
+
+    fn other(&mut self, keyword: Word<'a>) {
+        let is = |name: &str| name.as_bytes() == keyword.text;
+        match keyword.text {
+            b"mtllib" => self.outline.libraries.push(self.lexer.rest()),
+            b"usemtl" => {
+                let name = self.lexer.rest();
+                let names = &mut self.outline.names;
+                self.material = (!name.text.is_empty()).then(|| {
+                    *self.materials.entry(name.text).or_insert_with(|| {
+                        names.push(name);
+                        names.len() as u32 - 1
+                    })
+                });
+            }
+            _ => {
+                if let Some(kind) = NOT_DRAWN.iter().position(|(name, _)| is(name)) {
+                    self.not_drawn[kind] += 1;
+                } else if !SILENT.iter().any(|name| is(name)) {
+                    self.unknown.get_or_insert((keyword, 0)).1 += 1;
+                }
+            }
+        }
+    }
+
+    fn hand_on(&mut self, word: Word<'_>) {
+        self.clean.push(b' ');
+        self.clean.extend_from_slice(word.text);
+    }
+
+    fn error(&self, at: usize, message: String) -> Diagnostic {
+        self.source.diagnostic(at, message)
+    }
+}
+
+impl Read for Reader<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let length = self.fill_buf()?.read(buffer)?;
+        self.consume(length);
+        Ok(length)
+    }
+}
+
+impl BufRead for Reader<'_> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        if self.consumed == self.clean.len() {
+            self.refill();
+        }
+        // The errors are told by `finish`: this only keeps anyone from using the half of a file.
+        if self.errors.is_empty() {
+            Ok(&self.clean[self.consumed..])
+        } else {
+            Err(io::Error::other("not a valid OBJ"))
+        }
+    }
+
+    fn consume(&mut self, length: usize) {
+        self.consumed += length;
     }
 }

@@ -1,0 +1,112 @@
+//! Tiles over threads.
+
+mod tally;
+pub(crate) mod tile;
+
+pub(crate) use tally::Tally;
+pub use tally::{KindReport, Report};
+pub(crate) use tile::TileJob;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use rayon::prelude::*;
+use rt_kernels::Join;
+use rt_kernels::camera::Pinhole;
+
+use crate::fit::half_height;
+use crate::integrate::{Scratch, integrate};
+use crate::job::MAX_PIXELS;
+use crate::{Film, Job, RenderError, World};
+
+/// Who wants to know how far the work is. Called from all threads.
+pub trait Progress: Sync {
+    /// `done` of `total` tiles are finished.
+    fn tiles(&self, done: usize, total: usize);
+}
+
+/// Nobody does.
+pub struct Silent;
+
+impl Progress for Silent {
+    fn tiles(&self, _: usize, _: usize) {}
+}
+
+/// Renders a picture.
+///
+/// # Errors
+/// If the picture has no pixels or too many, if the camera looks nowhere, or if the threads cannot
+/// be started.
+pub fn render(
+    world: &World,
+    job: &Job,
+    progress: &dyn Progress,
+) -> Result<(Film, Report), RenderError> {
+    let (width, height) = job.size;
+    if width == 0 || height == 0 || u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(RenderError::Size(width, height));
+    }
+    let camera = camera(world, job)?;
+    let lights = tile::lights(world, job);
+    let depth_range = tile::depth_range(world, camera.eye());
+
+    let start = Instant::now();
+    let tiles = tile::tiles(width, height);
+    let film = Mutex::new(Film::new(width, height));
+    let total = Mutex::new(Tally::default());
+    let done = AtomicUsize::new(0);
+    let one = |(scratch, colors): &mut (Scratch, Vec<_>), origin: &(u32, u32)| {
+        let pixels = tile::pixels(*origin, width, height);
+        let tile = TileJob { world, job, camera, lights: &lights, depth_range, pixels };
+        let mut tally = Tally::default();
+        integrate(&tile, scratch, colors, &mut tally);
+
+        let mut film = film.lock().expect("no thread panics with the film in its hands");
+        for (&(x, y), &color) in tile.pixels.iter().zip(colors.iter()) {
+            film.set(x, y, color);
+        }
+        drop(film);
+        *total.lock().expect("no thread panics while it adds") += tally;
+        progress.tiles(done.fetch_add(1, Ordering::Relaxed) + 1, tiles.len());
+    };
+    pool(job.threads)?.install(|| {
+        tiles.par_iter().for_each_init(Default::default, one);
+    });
+
+    let film = film.into_inner().expect("all threads are done");
+    let tally = total.into_inner().expect("all threads are done");
+    Ok((film, tally.report(start.elapsed(), job.threads)))
+}
+
+/// The camera of a job, in the world's scaled space.
+pub(crate) fn camera(world: &World, job: &Job) -> Result<Pinhole, RenderError> {
+    let (view, (width, height)) = (&job.view, job.size);
+    if !(view.fov_y > 0.0 && view.fov_y < 180.0) {
+        return Err(RenderError::View("the angle of view must be between 0 and 180 degrees"));
+    }
+    let (eye, target) = (view.eye * world.scale, view.target * world.scale);
+    Pinhole::new(eye, target, view.up, half_height(view.fov_y), width, height)
+        .ok_or(RenderError::View("eye and target coincide, or up is along the line of sight"))
+}
+
+/// Threads of our own, so that their number is what was asked for.
+pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, RenderError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|why| RenderError::Threads { threads, why: why.to_string() })
+}
+
+/// A builder's halves on the threads of the pool that it runs in.
+pub(crate) struct RayonJoin;
+
+impl Join for RayonJoin {
+    fn join<A: Send, B: Send>(
+        &self,
+        a: impl FnOnce() -> A + Send,
+        b: impl FnOnce() -> B + Send,
+    ) -> (A, B) {
+        rayon::join(a, b)
+    }
+}

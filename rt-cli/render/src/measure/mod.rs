@@ -1,0 +1,79 @@
+//! Measuring the kernels: the same rays, once for each way to run them, in interleaved rounds.
+
+use std::time::{Duration, Instant};
+
+use rt_kernels::{Exec, Hits, Rays, Stats};
+
+use crate::exec::{camera, tile};
+use crate::{Job, RenderError, World};
+
+/// What one way to trace the primary rays of a picture took.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// Level and packet size.
+    pub exec: Exec,
+    /// The number of rays.
+    pub rays: u64,
+    /// The median time of all rays.
+    pub time: Duration,
+    /// The work of all rays.
+    pub stats: Stats,
+    /// Rays whose hit is not, bit for bit, that of the first way. Anything but 0 is a fault.
+    pub differing: u64,
+}
+
+/// Times the closest hits of a picture's primary rays on the calling thread, once a round for every
+/// way in turn, so that a machine that slows down slows down all of them.
+///
+/// # Errors
+/// If the camera looks nowhere.
+pub fn primary(
+    world: &World,
+    job: &Job,
+    ways: &[Exec],
+    rounds: usize,
+) -> Result<Vec<Row>, RenderError> {
+    let camera = camera(world, job)?;
+    let (width, height) = job.size;
+    let batches: Vec<Rays> = tile::tiles(width, height)
+        .into_iter()
+        .map(|origin| tile::rays(&camera, &tile::pixels(origin, width, height)).collect())
+        .collect();
+
+    let mut reference = Vec::new();
+    let mut rows = Vec::new();
+    for &exec in ways {
+        let mut row =
+            Row { exec, rays: 0, time: Duration::ZERO, stats: Stats::default(), differing: 0 };
+        for (i, rays) in batches.iter().enumerate() {
+            let mut hits = Hits::new();
+            world.accel.closest(exec, rays, &mut hits, &mut row.stats);
+            row.rays += rays.len() as u64;
+            if reference.len() == i {
+                reference.push(hits);
+            } else {
+                let first: &Hits = &reference[i];
+                let differs = |ray: &usize| hits.get(*ray) != first.get(*ray);
+                row.differing += (0..rays.len()).filter(differs).count() as u64;
+            }
+        }
+        rows.push(row);
+    }
+
+    let mut times = vec![Vec::new(); ways.len()];
+    let mut hits = Hits::new();
+    for _ in 0..rounds {
+        for (&exec, times) in ways.iter().zip(&mut times) {
+            let start = Instant::now();
+            for rays in &batches {
+                world.accel.closest(exec, rays, &mut hits, &mut Stats::default());
+            }
+            times.push(start.elapsed());
+        }
+    }
+    for (row, mut times) in rows.iter_mut().zip(times) {
+        times.sort_unstable();
+        row.time = times[times.len() / 2];
+    }
+    Ok(rows)
+}

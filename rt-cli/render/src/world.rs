@@ -1,0 +1,166 @@
+//! A scene made ready to trace.
+
+use std::time::{Duration, Instant};
+
+use glam::Vec3;
+use rt_kernels::geom::{Aabb, Sphere, Triangle};
+use rt_kernels::{Accelerator, Brute, BuildError, Bvh, Primitives};
+use rt_scene::Scene;
+
+use crate::exec::{RayonJoin, pool};
+use crate::job::RenderError;
+
+/// What finds the hits. The picture does not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AccelKind {
+    /// A bounding volume hierarchy.
+    #[default]
+    Bvh,
+    /// Every ray against every primitive: for small scenes, as the yardstick.
+    Brute,
+}
+
+impl AccelKind {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            AccelKind::Bvh => "bvh",
+            AccelKind::Brute => "brute",
+        }
+    }
+
+    /// How it lies in memory.
+    pub fn layout(self) -> &'static str {
+        match self {
+            AccelKind::Bvh => "skip",
+            AccelKind::Brute => "list",
+        }
+    }
+}
+
+/// A scene and its acceleration structure.
+pub struct World {
+    /// The scene, with all coordinates multiplied by `scale`.
+    pub(crate) scene: Scene,
+    pub(crate) accel: Box<dyn Accelerator>,
+    /// The power of two that brings the coordinates into the range of the kernels.
+    pub(crate) scale: f32,
+    kind: AccelKind,
+    bounds: Aabb,
+    build_time: Duration,
+}
+
+impl World {
+    /// Builds the acceleration structure, on that many threads.
+    ///
+    /// # Errors
+    /// If the scene is empty, or the kernels refuse it.
+    pub fn build(mut scene: Scene, kind: AccelKind, threads: usize) -> Result<World, RenderError> {
+        if scene.mesh.triangles.is_empty() && scene.spheres.is_empty() {
+            return Err(RenderError::Empty(scene.name));
+        }
+        let bounds = bounds(&scene);
+        let scale = range_scale(&bounds);
+        for position in &mut scene.mesh.positions {
+            *position *= scale;
+        }
+        for sphere in &mut scene.spheres {
+            sphere.center *= scale;
+            sphere.radius *= scale;
+        }
+
+        let start = Instant::now();
+        let primitives = primitives(&scene);
+        let accel = pool(threads)?.install(|| -> Result<Box<dyn Accelerator>, BuildError> {
+            Ok(match kind {
+                AccelKind::Bvh => Box::new(Bvh::build(&primitives, &RayonJoin)?),
+                AccelKind::Brute => Box::new(Brute::build(&primitives)?),
+            })
+        })?;
+        Ok(World { scene, accel, scale, kind, bounds, build_time: start.elapsed() })
+    }
+
+    /// What finds the hits.
+    pub fn accel_kind(&self) -> AccelKind {
+        self.kind
+    }
+
+    /// The box around all primitives, in the units of the scene.
+    pub fn bounds(&self) -> &Aabb {
+        &self.bounds
+    }
+
+    /// The number of triangles.
+    pub fn triangles(&self) -> usize {
+        self.scene.mesh.triangles.len()
+    }
+
+    /// The number of spheres.
+    pub fn spheres(&self) -> usize {
+        self.scene.spheres.len()
+    }
+
+    /// The time that it took to build the acceleration structure.
+    pub fn build_time(&self) -> Duration {
+        self.build_time
+    }
+
+    /// The memory of the scene: geometry, materials and lights.
+    pub fn scene_bytes(&self) -> usize {
+        let (scene, mesh) = (&self.scene, &self.scene.mesh);
+        size_of_val(&*mesh.positions)
+            + size_of_val(&*mesh.normals)
+            + size_of_val(&*mesh.triangles)
+            + size_of_val(&*scene.spheres)
+            + size_of_val(&*scene.materials)
+            + size_of_val(&*scene.lights)
+    }
+
+    /// The memory of the acceleration structure and its copy of the primitives.
+    pub fn accel_bytes(&self) -> usize {
+        self.accel.bytes()
+    }
+
+    /// The corners of a triangle.
+    pub(crate) fn corners(&self, triangle: &rt_scene::Triangle) -> [Vec3; 3] {
+        triangle.position.map(|i| self.scene.mesh.positions[i as usize])
+    }
+}
+
+fn primitives(scene: &Scene) -> Primitives {
+    let mesh = &scene.mesh;
+    let corners = |triangle: &rt_scene::Triangle| Triangle {
+        corners: triangle.position.map(|i| mesh.positions[i as usize]),
+    };
+    let sphere =
+        |sphere: &rt_scene::Sphere| Sphere { center: sphere.center, radius: sphere.radius };
+    Primitives {
+        triangles: mesh.triangles.iter().map(corners).collect(),
+        spheres: scene.spheres.iter().map(sphere).collect(),
+    }
+}
+
+/// The box around all that can be seen.
+fn bounds(scene: &Scene) -> Aabb {
+    let mesh = &scene.mesh;
+    let corners = mesh.triangles.iter().flat_map(|triangle| triangle.position);
+    let points = corners.map(|i| mesh.positions[i as usize]);
+    let flat = points.fold(Aabb::EMPTY, |all, point| all.union(&Aabb::new(point, point)));
+    scene.spheres.iter().fold(flat, |all, sphere| {
+        let r = Vec3::splat(sphere.radius);
+        all.union(&Aabb::new(sphere.center - r, sphere.center + r))
+    })
+}
+
+/// The power of two that brings the greatest coordinate near 1, if it is not within 2^±20 already:
+/// then no product of the kernels overflows or vanishes. It changes no bit of any mantissa.
+fn range_scale(bounds: &Aabb) -> f32 {
+    let greatest = bounds.corners.iter().flatten().fold(0.0, |max: f32, x| max.max(x.abs()));
+    if greatest == 0.0 || (1.0 / (1 << 20) as f32..=(1 << 20) as f32).contains(&greatest) {
+        return 1.0;
+    }
+    // Subnormal coordinates would need a factor beyond the largest: they are brought as near as
+    // one factor can.
+    let exponent = (greatest.to_bits() >> 23) as i32 - 127;
+    f32::from_bits(((127 - exponent).clamp(1, 254) as u32) << 23)
+}

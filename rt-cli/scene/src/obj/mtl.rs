@@ -1,0 +1,229 @@
+//! Material libraries: the part of MTL that [`Material`] has room for.
+
+use std::collections::{HashMap, HashSet};
+use std::io;
+
+use glam::Vec3;
+
+use crate::diag::{MAX_DIAGNOSTICS, reason};
+use crate::model::Material;
+use crate::text::{Lexer, Source, Word, decode};
+
+/// No more libraries than this are opened for one file.
+const MAX_LIBRARIES: usize = 256;
+
+/// Gives the bytes of a material library by the name that the OBJ file states.
+pub type Loader<'a> = dyn FnMut(&str) -> io::Result<Vec<u8>> + 'a;
+
+/// All materials that a file's libraries define, and what was wrong with them.
+#[derive(Default)]
+pub(super) struct Libraries {
+    materials: HashMap<String, Material>,
+    opened: HashSet<String>,
+    pub(super) warnings: Vec<String>,
+}
+
+impl Libraries {
+    pub(super) fn get(&self, name: &str) -> Option<&Material> {
+        self.materials.get(name)
+    }
+
+    /// Opens what one `mtllib` statement names: one file, or else several.
+    pub(super) fn open(&mut self, source: &Source<'_>, names: Word<'_>, load: &mut Loader<'_>) {
+        let line = decode(names.text);
+        let Err(error) = self.open_one(&line, load) else { return };
+        let several = split_names(&line);
+        if several.len() < 2 {
+            self.warnings.push(cannot_read(source, names, &line, &error));
+            return;
+        }
+        for name in several {
+            if let Err(error) = self.open_one(&name, load) {
+                self.warnings.push(cannot_read(source, names, &name, &error));
+            }
+        }
+    }
+
+    fn open_one(&mut self, name: &str, load: &mut Loader<'_>) -> io::Result<()> {
+        if self.opened.contains(name) || self.opened.len() == MAX_LIBRARIES {
+            return Ok(());
+        }
+        let bytes = load(name)?;
+        self.opened.insert(name.to_owned());
+        match Source::new(name, &bytes, "MTL") {
+            Ok(source) => self.read(&source),
+            Err(error) => self.warnings.push(error.to_string()),
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, source: &Source<'_>) {
+        let mut cleaner = Cleaner::new(*source);
+        cleaner.run();
+        match tobj::load_mtl_buf(&mut cleaner.clean.as_slice()) {
+            Ok((materials, _)) => {
+                for (name, material) in cleaner.names.iter().zip(materials) {
+                    let name = decode(name.text).into_owned();
+                    self.materials.insert(name.clone(), convert(name, &material));
+                }
+            }
+            Err(error) => cleaner.warnings.push(format!("{}: {error}", source.name)),
+        }
+        self.warnings.append(&mut cleaner.warnings);
+    }
+}
+
+fn cannot_read(source: &Source<'_>, at: Word<'_>, name: &str, error: &io::Error) -> String {
+    let name = Word { at: 0, text: name.as_bytes() }.quoted();
+    source.warning(at.at, format!("cannot read material library {name}: {}", reason(error)))
+}
+
+/// Cuts at blanks after `.mtl`, or at every blank where there is no such name.
+fn split_names(line: &str) -> Vec<String> {
+    let is_end = |word: &str| word.to_ascii_lowercase().ends_with(".mtl");
+    let any = line.split_ascii_whitespace().any(is_end);
+    let mut names = vec![String::new()];
+    for word in line.split_ascii_whitespace() {
+        let name = names.last_mut().expect("never empty");
+        if !name.is_empty() {
+            name.push(' ');
+        }
+        name.push_str(word);
+        if !any || is_end(word) {
+            names.push(String::new());
+        }
+    }
+    names.retain(|name| !name.is_empty());
+    names
+}
+
+fn convert(name: String, material: &tobj::Material) -> Material {
+    let default = Material::default();
+    let color = |value: Option<[f32; 3]>, otherwise| value.map_or(otherwise, Vec3::from);
+    let specular = color(material.specular, default.specular);
+    // The illumination models of MTL that trace reflections.
+    let reflects = matches!(material.illumination_model, Some(3 | 5..=9));
+    Material {
+        name,
+        diffuse: color(material.diffuse, default.diffuse),
+        specular,
+        shininess: material.shininess.unwrap_or(default.shininess),
+        mirror: if reflects { specular } else { default.mirror },
+        emission: color(material.emissive, default.emission),
+    }
+}
+
+/// Checks an MTL text and writes what is good of it, materials named by their number.
+struct Cleaner<'a> {
+    source: Source<'a>,
+    lexer: Lexer<'a>,
+    clean: Vec<u8>,
+    names: Vec<Word<'a>>,
+    textures: HashSet<&'a [u8]>,
+    warnings: Vec<String>,
+}
+
+impl<'a> Cleaner<'a> {
+    fn new(source: Source<'a>) -> Self {
+        Cleaner {
+            source,
+            lexer: Lexer::new(source.text),
+            clean: Vec::new(),
+            names: Vec::new(),
+            textures: HashSet::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    fn run(&mut self) {
+        loop {
+            if let Some(keyword) = self.lexer.word() {
+                let before = self.clean.len();
+                if let Err((at, message)) = self.statement(keyword) {
+                    self.clean.truncate(before);
+                    self.warnings.push(self.source.warning(at, message));
+                }
+                if self.warnings.len() == MAX_DIAGNOSTICS {
+                    let stop = format!("{}: more is wrong; the rest is not read", self.source.name);
+                    self.warnings.push(stop);
+                    return;
+                }
+            }
+            if !self.lexer.next_line() {
+                return;
+            }
+        }
+    }
+
+    fn statement(&mut self, keyword: Word<'a>) -> Result<(), (usize, String)> {
+        match keyword.text {
+            b"newmtl" => {
+                let name = self.lexer.rest();
+                if name.text.is_empty() {
+                    return Err((name.at, "expected a name after 'newmtl'".to_owned()));
+                }
+                self.clean.extend(format!("newmtl {}\n", self.names.len()).bytes());
+                self.names.push(name);
+                Ok(())
+            }
+            _ if self.names.is_empty() => Ok(()),
+            b"Kd" | b"Ks" | b"Ke" => self.values(keyword, 3),
+            b"Ns" => self.values(keyword, 1),
+            b"illum" => self.illumination(),
+            map if map.starts_with(b"map_") || [&b"bump"[..], b"disp", b"refl"].contains(&map) => {
+                self.texture(keyword);
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// One number may stand for a grey.
+    fn values(&mut self, keyword: Word<'a>, wanted: usize) -> Result<(), (usize, String)> {
+        let mut words = Vec::new();
+        while let Some(word) = self.lexer.word().filter(|_| words.len() < wanted) {
+            let value = word.number().map_err(|message| (word.at, message))?;
+            if value < 0.0 {
+                let message = format!("expected a number of at least 0, found {}", word.quoted());
+                return Err((word.at, message));
+            }
+            words.push(word.text);
+        }
+        if words.len() == 1 {
+            words.resize(wanted, words[0]);
+        } else if words.len() < wanted {
+            let (s, name) = (if wanted == 1 { "" } else { "s" }, keyword.quoted());
+            let message =
+                format!("expected {wanted} number{s} after {name}, found {}", words.len());
+            return Err((self.lexer.at(), message));
+        }
+        self.clean.extend_from_slice(keyword.text);
+        for word in words {
+            self.clean.push(b' ');
+            self.clean.extend_from_slice(word);
+        }
+        self.clean.push(b'\n');
+        Ok(())
+    }
+
+    fn illumination(&mut self) -> Result<(), (usize, String)> {
+        let word = self.lexer.word().unwrap_or(Word { at: self.lexer.at(), text: b"" });
+        let Some(model) = word.parse::<u8>() else {
+            let message =
+                format!("expected an illumination model of 0 to 10, found {}", word.quoted());
+            return Err((word.at, message));
+        };
+        self.clean.extend(format!("illum {model}\n").bytes());
+        Ok(())
+    }
+
+    fn texture(&mut self, keyword: Word<'a>) {
+        let name = self.lexer.rest();
+        if self.textures.insert(name.text) {
+            let kind = decode(keyword.text);
+            let name = name.quoted();
+            let message = format!("{kind} {}: textures are not drawn yet", name.trim_matches('\''));
+            self.warnings.push(self.source.warning(keyword.at, message));
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! OBJ and MTL texts.
+
+use std::collections::HashSet;
+use std::io::{self, Write};
+use std::iter;
+
+use glam::Vec3;
+
+use crate::diag::{Error, plural};
+use crate::model::{Material, Scene};
+
+/// Writes a scene's triangles as OBJ. Read back, every coordinate has the same bits. `library` is
+/// the name of the file that [`write_library`] writes; without it no materials are stated.
+///
+/// An OBJ holds neither spheres, which are an error, nor lights nor a view, which are left out.
+pub fn write(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> Result<(), Error> {
+    if !scene.spheres.is_empty() {
+        let spheres = plural(scene.spheres.len() as u64, "sphere");
+        let message = format!("an OBJ file cannot hold {}'s {spheres}: write an NFF", scene.name);
+        return Err(Error::Inexpressible(message));
+    }
+    write_mesh(scene, library, out).map_err(Error::Write)
+}
+
+/// Writes a scene's materials as MTL. What reflects does so as much as its highlights: MTL has one
+/// colour for both.
+pub fn write_library(scene: &Scene, out: &mut impl Write) -> Result<(), Error> {
+    write_materials(&scene.materials, out).map_err(Error::Write)
+}
+
+fn write_mesh(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> io::Result<()> {
+    let mesh = &scene.mesh;
+    if let Some(library) = library {
+        writeln!(out, "mtllib {library}")?;
+    }
+    for Vec3 { x, y, z } in &mesh.positions {
+        writeln!(out, "v {x} {y} {z}")?;
+    }
+    for Vec3 { x, y, z } in &mesh.normals {
+        writeln!(out, "vn {x} {y} {z}")?;
+    }
+    let names = unique_names(&scene.materials);
+    let mut material = None;
+    for triangle in &mesh.triangles {
+        if library.is_some() && material != Some(triangle.material) {
+            material = Some(triangle.material);
+            writeln!(out, "usemtl {}", names[triangle.material as usize])?;
+        }
+        write!(out, "f")?;
+        for corner in 0..3 {
+            write!(out, " {}", u64::from(triangle.position[corner]) + 1)?;
+            if let Some(normal) = triangle.normal {
+                write!(out, "//{}", u64::from(normal[corner]) + 1)?;
+            }
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+fn write_materials(materials: &[Material], out: &mut impl Write) -> io::Result<()> {
+    for (material, name) in materials.iter().zip(unique_names(materials)) {
+        let reflects = material.mirror != Vec3::ZERO;
+        writeln!(out, "newmtl {name}")?;
+        for (keyword, Vec3 { x, y, z }) in [
+            ("Kd", material.diffuse),
+            ("Ks", if reflects { material.mirror } else { material.specular }),
+            ("Ke", material.emission),
+        ] {
+            writeln!(out, "{keyword} {x} {y} {z}")?;
+        }
+        writeln!(out, "Ns {}\nillum {}", material.shininess, if reflects { 3 } else { 2 })?;
+    }
+    Ok(())
+}
+
+/// The materials' own names, with a number where that is needed to tell them apart.
+fn unique_names(materials: &[Material]) -> Vec<String> {
+    let mut taken = HashSet::new();
+    let unique = |(index, material): (usize, &Material)| {
+        let base = if material.name.is_empty() { "material" } else { &material.name };
+        let numbered = (index..).map(|number| format!("{base}_{number}"));
+        let mut names = iter::once(base.to_owned()).chain(numbered);
+        names.find(|name| taken.insert(name.clone())).unwrap_or_default()
+    };
+    materials.iter().enumerate().map(unique).collect()
+}

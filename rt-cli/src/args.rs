@@ -1,0 +1,316 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args as Group, Parser, Subcommand, ValueEnum};
+use glam::Vec3;
+use rt_render::{AccelKind, Exec, Integrator, Level, LevelError, PacketSize};
+use rt_scene::Light;
+
+/// A ray tracer that gives the same bits on every machine.
+#[derive(Parser)]
+#[command(name = "rt", version, max_term_width = 100, disable_help_subcommand = true)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    Render(RenderArgs),
+    Gen(GenArgs),
+    Info(InfoArgs),
+    Bench(BenchArgs),
+}
+
+/// Render one picture of a scene.
+///
+/// SCENE is an OBJ or NFF file, or spd:NAME[:SIZE] for a procedural scene (spd:balls). Without
+/// further flags the camera is the scene's own, or fitted to it; the lights are the scene's own, or
+/// one at the eye; every core works at the best level that the CPU has.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt render bunny.obj -o bunny.png\n  \
+    rt render spd:balls -s 1024x1024 -o balls.png\n  \
+    rt render room.obj --eye 1,2,5 --target 0,1,0 --light 0,3,0 -o room.png")]
+pub(crate) struct RenderArgs {
+    /// The scene.
+    pub(crate) scene: String,
+    /// The PNG file to write; - for standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+    #[command(flatten)]
+    pub(crate) shading: ShadingArgs,
+    #[command(flatten)]
+    pub(crate) machine: MachineArgs,
+
+    /// Say nothing but errors.
+    #[arg(short, long, help_heading = "Talk")]
+    pub(crate) quiet: bool,
+    /// How progress is shown: auto is a bar on a terminal, lines elsewhere and under CI.
+    #[arg(long, value_enum, value_name = "HOW", default_value_t, help_heading = "Talk")]
+    pub(crate) progress: ProgressKind,
+    /// Write counts and times as JSON; - for standard output.
+    #[arg(long, value_name = "FILE", help_heading = "Talk")]
+    pub(crate) stats_json: Option<PathBuf>,
+}
+
+/// Size and camera.
+#[derive(Group)]
+#[command(next_help_heading = "Picture")]
+pub(crate) struct PictureArgs {
+    /// Width and height in pixels [default: the scene's, or 512x512].
+    #[arg(short, long, value_name = "WxH", value_parser = size)]
+    pub(crate) size: Option<(u32, u32)>,
+    /// Where the camera is.
+    #[arg(long, value_name = "X,Y,Z", value_parser = vec3, allow_hyphen_values = true)]
+    pub(crate) eye: Option<Vec3>,
+    /// What the camera looks at.
+    #[arg(long, value_name = "X,Y,Z", value_parser = vec3, allow_hyphen_values = true)]
+    pub(crate) target: Option<Vec3>,
+    /// What is up in the picture.
+    #[arg(long, value_name = "X,Y,Z", value_parser = vec3, allow_hyphen_values = true)]
+    pub(crate) up: Option<Vec3>,
+    /// The vertical angle of view.
+    #[arg(long, value_name = "DEGREES", value_parser = angle)]
+    pub(crate) fov: Option<f32>,
+}
+
+/// Light and shading.
+#[derive(Group)]
+#[command(next_help_heading = "Shading")]
+pub(crate) struct ShadingArgs {
+    /// A point light, white unless a colour follows; instead of the scene's. May be repeated.
+    #[arg(long, value_name = "X,Y,Z[,R,G,B]", value_parser = light, allow_hyphen_values = true)]
+    pub(crate) light: Vec<Light>,
+    /// The linear colour behind the scene [default: the scene's, or 0.05,0.05,0.06].
+    #[arg(long, value_name = "R,G,B", value_parser = vec3)]
+    pub(crate) background: Option<Vec3>,
+    /// What is computed of a hit.
+    #[arg(long, value_enum, value_name = "KIND", default_value_t)]
+    pub(crate) integrator: IntegratorArg,
+    /// How often a ray may be reflected.
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    pub(crate) depth: u32,
+    /// Let light through everything.
+    #[arg(long)]
+    pub(crate) no_shadows: bool,
+}
+
+/// How the work is done. The picture does not depend on it.
+#[derive(Group)]
+#[command(next_help_heading = "Machine (the picture is the same for all of these)")]
+pub(crate) struct MachineArgs {
+    /// The instructions to use: auto is the best level of this CPU, or what the environment
+    /// variable SIMD4_LEVEL says.
+    #[arg(long, value_name = "LEVEL", default_value = "auto",
+          value_parser = ["auto", "scalar", "sse2", "sse4.1", "avx2", "neon"])]
+    isa: String,
+    /// Rays that go together: native is as many as a register has lanes.
+    #[arg(long, value_name = "SIZE", default_value = "native",
+          value_parser = ["native", "1", "4", "8"])]
+    packet: String,
+    /// Threads to use [default: one a core].
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// What finds the hits.
+    #[arg(long, value_enum, value_name = "KIND", default_value_t)]
+    accel: AccelArg,
+}
+
+impl MachineArgs {
+    /// The level and packet size.
+    pub(crate) fn exec(&self) -> Result<Exec, LevelError> {
+        let level = match &*self.isa {
+            "auto" => Level::best()?,
+            name => Level::named(name)?,
+        };
+        let packet = match &*self.packet {
+            "1" => PacketSize::Single,
+            "4" => PacketSize::Four,
+            "8" => PacketSize::Eight,
+            _ => PacketSize::Native,
+        };
+        Ok(Exec { level, packet })
+    }
+
+    /// The number of threads.
+    pub(crate) fn threads(&self) -> usize {
+        match self.threads {
+            Some(threads) => threads.into(),
+            None => std::thread::available_parallelism().map_or(1, usize::from),
+        }
+    }
+
+    /// The kind of acceleration structure.
+    pub(crate) fn accel(&self) -> AccelKind {
+        match self.accel {
+            AccelArg::Bvh => AccelKind::Bvh,
+            AccelArg::Brute => AccelKind::Brute,
+        }
+    }
+}
+
+/// Write a procedural scene to a file.
+///
+/// The extension of the file tells the format: .nff, or .obj for scenes of polygons alone. Without
+/// a file, NFF goes to standard output.
+#[derive(Group)]
+pub(crate) struct GenArgs {
+    /// The scene's name, for example balls.
+    pub(crate) name: String,
+    /// The scene's size factor [default: the scene's own].
+    #[arg(long, value_name = "N")]
+    pub(crate) size: Option<u32>,
+    /// The file to write.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Tell what is in a scene, or, without one, what this machine has.
+#[derive(Group)]
+pub(crate) struct InfoArgs {
+    /// The scene.
+    pub(crate) scene: Option<String>,
+    /// Answer as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Time the primary rays of scenes at every level, side by side.
+///
+/// One thread; interleaved rounds; the median of each. The first row is the yardstick: one ray at a
+/// time in plain scalar code on the same BVH. The second is the four-lane code on the scalar level.
+#[derive(Group)]
+pub(crate) struct BenchArgs {
+    /// The scenes.
+    #[arg(required = true)]
+    pub(crate) scenes: Vec<String>,
+    /// Width and height in pixels.
+    #[arg(short, long, value_name = "WxH", value_parser = size, default_value = "512x512")]
+    pub(crate) size: (u32, u32),
+    /// How often everything is timed.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) rounds: u16,
+    /// Write the table as JSON; - for standard output.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum AccelArg {
+    /// A bounding volume hierarchy.
+    #[default]
+    Bvh,
+    /// Every ray against every primitive.
+    Brute,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+pub(crate) enum IntegratorArg {
+    /// Phong shading, shadows, mirrors.
+    #[default]
+    Whitted,
+    /// Diffuse colour times the cosine to the viewer.
+    Eyelight,
+    /// Normals as colours.
+    Normals,
+    /// Distance as grey.
+    Depth,
+}
+
+impl From<IntegratorArg> for Integrator {
+    fn from(arg: IntegratorArg) -> Integrator {
+        match arg {
+            IntegratorArg::Whitted => Integrator::Whitted,
+            IntegratorArg::Eyelight => Integrator::Eyelight,
+            IntegratorArg::Normals => Integrator::Normals,
+            IntegratorArg::Depth => Integrator::Depth,
+        }
+    }
+}
+
+/// How progress is shown.
+#[derive(Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ProgressKind {
+    /// A bar on a terminal, lines elsewhere.
+    #[default]
+    Auto,
+    /// A bar with elapsed and remaining time.
+    Bar,
+    /// A line now and then.
+    Lines,
+    /// A JSON object a line.
+    Json,
+    /// Nothing.
+    None,
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let (width, height) = text.split_once('x').ok_or("expected WIDTHxHEIGHT, as in 640x480")?;
+    let number = |text: &str| match text.parse() {
+        Ok(pixels) if pixels > 0 => Ok(pixels),
+        _ => Err(format!("{text:?} is not a number of pixels")),
+    };
+    Ok((number(width)?, number(height)?))
+}
+
+fn numbers(text: &str) -> Result<Vec<f32>, String> {
+    let number = |text: &str| match text.trim().parse::<f32>() {
+        Ok(x) if x.is_finite() => Ok(x),
+        _ => Err(format!("{text:?} is not a finite number")),
+    };
+    text.split(',').map(number).collect()
+}
+
+fn vec3(text: &str) -> Result<Vec3, String> {
+    match numbers(text)?[..] {
+        [x, y, z] => Ok(Vec3::new(x, y, z)),
+        _ => Err("expected three numbers with commas between them".into()),
+    }
+}
+
+fn light(text: &str) -> Result<Light, String> {
+    match numbers(text)?[..] {
+        [x, y, z] => Ok(Light { position: Vec3::new(x, y, z), color: Vec3::ONE }),
+        [x, y, z, r, g, b] => Ok(Light { position: Vec3::new(x, y, z), color: Vec3::new(r, g, b) }),
+        _ => Err("expected three numbers, or six with a colour".into()),
+    }
+}
+
+fn angle(text: &str) -> Result<f32, String> {
+    match numbers(text)?[..] {
+        [degrees] if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
+        _ => Err("expected an angle between 0 and 180 degrees".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn values_are_read_whole_or_refused() {
+        assert_eq!(size("640x480"), Ok((640, 480)));
+        for bad in ["640", "0x5", "5x0", "x", "-1x5", "5x5x5", "4294967296x1"] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+        assert_eq!(vec3("-1, 2.5,3e2"), Ok(Vec3::new(-1.0, 2.5, 300.0)));
+        for bad in ["", "1,2", "1,2,3,4", "1,2,nan", "1,2,inf", "1,2,1e39", "1;2;3"] {
+            assert!(vec3(bad).is_err(), "{bad}");
+        }
+        assert_eq!(light("1,2,3").unwrap().color, Vec3::ONE);
+        assert_eq!(light("1,2,3,4,5,6").unwrap().color, Vec3::new(4.0, 5.0, 6.0));
+        assert!(light("1,2,3,4").is_err());
+        assert!(angle("0").is_err() && angle("180").is_err() && angle("45").is_ok());
+    }
+}

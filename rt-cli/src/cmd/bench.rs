@@ -1,0 +1,101 @@
+//! `rt bench`.
+
+use glam::Vec3;
+use rt_render::measure::{self, Row};
+use rt_render::{AccelKind, Exec, Integrator, Job, Level, PacketSize, World};
+use rt_scene::View;
+use serde_json::{Value, json};
+
+use super::render::default_view;
+use crate::args::BenchArgs;
+use crate::error::Error;
+use crate::output::{self, Output};
+
+pub(crate) fn run(args: &BenchArgs) -> Result<(), Error> {
+    let json = args.json.as_deref().map(Output::open).transpose()?;
+    let scalar = Level::named("scalar")?;
+    let mut ways = vec![Exec { level: scalar, packet: PacketSize::Single }];
+    ways.extend(Level::available().map(Exec::at));
+
+    let mut rows = Vec::new();
+    let mut table = format!(
+        "{:<24}{:<10}{:>7}{:>10}{:>9}{:>9}{:>12}{:>12}\n",
+        "scene", "level", "packet", "Mray/s", "× one", "× scalar", "nodes/ray", "tests/ray"
+    );
+    for name in &args.scenes {
+        let mut scene = rt_scene::open(name)?;
+        let view = scene.view.take();
+        let scene_name = scene.name.clone();
+        let world = World::build(scene, AccelKind::Bvh, 1)?;
+        let view = view.unwrap_or_else(|| default_view(&world, args.size));
+        let job = job(view, args.size, ways[0]);
+        let measured = measure::primary(&world, &job, &ways, args.rounds.into())?;
+        for row in &measured {
+            if row.differing > 0 {
+                let way = format!("{} × {}", row.exec.level, row.exec.lanes());
+                return Err(Error::Differ { scene: scene_name, differing: row.differing, way });
+            }
+            table += &line(&scene_name, row, &measured);
+            rows.push(row_json(&scene_name, &world, row));
+        }
+    }
+    match json {
+        Some(json) => json.write(output::json(&json!({ "rows": rows })).as_bytes())?,
+        None => return output::to_stdout(table.as_bytes()),
+    }
+    Ok(())
+}
+
+/// The primary rays of a picture; of the rest nothing matters.
+fn job(view: View, size: (u32, u32), exec: Exec) -> Job {
+    Job {
+        size,
+        view,
+        lights: Vec::new(),
+        background: Vec3::ZERO,
+        integrator: Integrator::Depth,
+        depth: 0,
+        shadows: false,
+        exec,
+        threads: 1,
+    }
+}
+
+fn mrays_per_s(row: &Row) -> f64 {
+    row.rays as f64 / row.time.as_secs_f64() / 1e6
+}
+
+/// A row of the table; `measured` begins with one ray at a time and the scalar level.
+fn line(scene: &str, row: &Row, measured: &[Row]) -> String {
+    let times = |other: &Row| other.time.as_secs_f64() / row.time.as_secs_f64();
+    let per_ray = |count: u64| count as f64 / row.rays as f64;
+    format!(
+        "{scene:<24}{:<10}{:>7}{:>10.2}{:>9.2}{:>9.2}{:>12.1}{:>12.1}\n",
+        row.exec.level,
+        row.exec.lanes(),
+        mrays_per_s(row),
+        times(&measured[0]),
+        times(&measured[1]),
+        per_ray(row.stats.box_tests),
+        per_ray(row.stats.triangle_tests + row.stats.sphere_tests),
+    )
+}
+
+fn row_json(scene: &str, world: &World, row: &Row) -> Value {
+    let per_ray = |count: u64| count as f64 / row.rays as f64;
+    json!({
+        "what": "trace",
+        "scene": scene,
+        "kind": "primary",
+        "level": row.exec.level.name(),
+        "kernel": "watertight",
+        "accel": world.accel_kind().name(),
+        "layout": world.accel_kind().layout(),
+        "packet": row.exec.lanes().to_string(),
+        "ns": row.time.as_secs_f64() * 1e9 / row.rays as f64,
+        "mrays_per_s": mrays_per_s(row),
+        "nodes_per_ray": per_ray(row.stats.box_tests),
+        "tests_per_ray": per_ray(row.stats.triangle_tests + row.stats.sphere_tests),
+        "bytes": world.accel_bytes(),
+    })
+}

@@ -1,0 +1,94 @@
+//! `rt info`.
+
+use std::fmt::Write as _;
+
+use glam::Vec3;
+use rt_render::Level;
+use rt_scene::Scene;
+use serde_json::{Value, json};
+
+use crate::args::InfoArgs;
+use crate::error::Error;
+use crate::output;
+
+pub(crate) fn run(args: &InfoArgs) -> Result<(), Error> {
+    let text = match &args.scene {
+        Some(name) => {
+            let scene = rt_scene::open(name)?;
+            if args.json { output::json(&scene_json(&scene)) } else { scene_text(&scene) }
+        }
+        None => {
+            let machine = machine_json()?;
+            if args.json { output::json(&machine) } else { machine_text(&machine) }
+        }
+    };
+    output::to_stdout(text.as_bytes())
+}
+
+fn machine_json() -> Result<Value, Error> {
+    let levels: Vec<_> = Level::available().map(Level::name).collect();
+    Ok(json!({
+        "arch": std::env::consts::ARCH,
+        "levels": levels,
+        "default_level": Level::best()?.name(),
+    }))
+}
+
+fn machine_text(machine: &Value) -> String {
+    let levels: Vec<_> = Level::available().map(Level::name).collect();
+    format!(
+        "architecture: {}\nlevels: {}\ndefault level: {}\n",
+        machine["arch"].as_str().unwrap_or_default(),
+        levels.join(", "),
+        machine["default_level"].as_str().unwrap_or_default(),
+    )
+}
+
+fn scene_json(scene: &Scene) -> Value {
+    let bounds = scene.bounds();
+    let corner = |pick: fn((Vec3, Vec3)) -> Vec3| bounds.map(|bounds| pick(bounds).to_array());
+    let skipped: Vec<_> = scene
+        .facts
+        .skipped
+        .iter()
+        .map(|s| json!({ "what": s.what, "why": s.why, "count": s.count }))
+        .collect();
+    json!({
+        "triangles": scene.mesh.triangles.len(),
+        "primitives": scene.facts.stated,
+        "vertices": scene.mesh.positions.len(),
+        "materials": scene.materials.len(),
+        "lights": scene.lights.len(),
+        "bounds": { "min": corner(|(min, _)| min), "max": corner(|(_, max)| max) },
+        "skipped": skipped,
+        "warnings": scene.facts.warnings,
+    })
+}
+
+fn scene_text(scene: &Scene) -> String {
+    let mut text = format!("{}\n", scene.name);
+    let mut line = |what: &str, value: String| {
+        let _ = writeln!(text, "  {what:<12}{value}");
+    };
+    for (kind, count) in &scene.facts.stated {
+        line(&format!("{kind}s"), count.to_string());
+    }
+    line("triangles", scene.mesh.triangles.len().to_string());
+    line("vertices", scene.mesh.positions.len().to_string());
+    line("materials", scene.materials.len().to_string());
+    line("lights", scene.lights.len().to_string());
+    if let Some((min, max)) = scene.bounds() {
+        line("bounds", format!("{min} to {max}"));
+        line("extent", (max - min).to_string());
+    }
+    if let Some(view) = &scene.view {
+        line("view", crate::report::flags(view));
+    }
+    for skipped in &scene.facts.skipped {
+        line("skipped", format!("{} × {}: {}", skipped.count, skipped.what, skipped.why));
+    }
+    for warning in &scene.facts.warnings {
+        line("warning", warning.clone());
+    }
+    text
+}

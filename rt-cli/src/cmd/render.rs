@@ -1,0 +1,89 @@
+//! `rt render`.
+
+use glam::Vec3;
+use rt_render::{Job, World, fitted_view};
+use rt_scene::View;
+
+use crate::args::{PictureArgs, RenderArgs};
+use crate::error::Error;
+use crate::output::{self, Output};
+use crate::report::{self, Rendered};
+use crate::ui;
+
+/// The angle of view of a fitted camera, in degrees.
+const FOV: f32 = 40.0;
+
+/// The linear colour behind scenes that state none.
+const BACKGROUND: Vec3 = Vec3::new(0.05, 0.05, 0.06);
+
+pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
+    let exec = args.machine.exec()?;
+    let threads = args.machine.threads();
+    // Before any work: what cannot be written is not worth rendering.
+    let output = Output::open(&args.output)?;
+    let stats = args.stats_json.as_deref().map(Output::open).transpose()?;
+
+    let mut scene = rt_scene::open(&args.scene)?;
+    if !args.quiet {
+        ui::warnings(&scene);
+    }
+    let own = (scene.view.take(), std::mem::take(&mut scene.lights), scene.background);
+    let (own_view, own_lights, own_background) = own;
+    let name = scene.name.clone();
+    let stated = report::stated(&scene);
+    let world = World::build(scene, args.machine.accel(), threads)?;
+
+    let size = picture_size(&args.picture, own_view.as_ref());
+    let view = view(&args.picture, own_view, &world, size);
+    if own_view.is_none() && !args.quiet {
+        ui::say(&format!("camera: {}", report::flags(&view)));
+    }
+    let job = Job {
+        size,
+        view,
+        lights: if args.shading.light.is_empty() { own_lights } else { args.shading.light.clone() },
+        background: args.shading.background.or(own_background).unwrap_or(BACKGROUND),
+        integrator: args.shading.integrator.into(),
+        depth: args.shading.depth,
+        shadows: !args.shading.no_shadows,
+        exec,
+        threads,
+    };
+    let progress = ui::Progress::new(args.progress, args.quiet);
+    let (film, made) = rt_render::render(&world, &job, &progress)?;
+    progress.finish();
+
+    output.write(&output::png(&film, &name, &view)?)?;
+    let rendered = Rendered { name: &name, output: &args.output, world: &world, job: &job, made };
+    if !args.quiet {
+        ui::say(&rendered.line());
+    }
+    match stats {
+        Some(stats) => stats.write(output::json(&rendered.json(stated)).as_bytes()),
+        None => Ok(()),
+    }
+}
+
+/// The size in the flags, the scene's, or 512 by 512.
+pub(crate) fn picture_size(args: &PictureArgs, own: Option<&View>) -> (u32, u32) {
+    args.size.or(own.and_then(|view| view.size)).unwrap_or((512, 512))
+}
+
+/// The scene's view or a fitted one, as far as the flags say nothing else.
+fn view(args: &PictureArgs, own: Option<View>, world: &World, size: (u32, u32)) -> View {
+    let fov = args.fov.unwrap_or(FOV);
+    let fitted = || fitted_view(world.bounds(), size, args.up.unwrap_or(Vec3::Y), fov);
+    let base = own.unwrap_or_else(fitted);
+    View {
+        eye: args.eye.unwrap_or(base.eye),
+        target: args.target.unwrap_or(base.target),
+        up: args.up.unwrap_or(base.up),
+        fov_y: args.fov.unwrap_or(base.fov_y),
+        size: None,
+    }
+}
+
+/// The camera of scenes that have none.
+pub(crate) fn default_view(world: &World, size: (u32, u32)) -> View {
+    fitted_view(world.bounds(), size, Vec3::Y, FOV)
+}

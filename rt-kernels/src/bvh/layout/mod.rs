@@ -1,0 +1,6 @@
+//! Layouts: flat arrays, converted from the build tree, that own their copy of the primitives.
+
+mod skip_array;
+
+pub(crate) use skip_array::MAX_SLOTS;
+pub use skip_array::{Node, SkipArray};

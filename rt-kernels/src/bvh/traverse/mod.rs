@@ -1,0 +1,3 @@
+//! Traversals: one file a layout and order of visits.
+
+pub mod skip;

@@ -1,0 +1,43 @@
+//! Depth-first traversal without a stack: a node that is missed skips its subtree.
+//!
+//! If any ray of the packet hits a node, all go on to its children. Source: Geimer and Müller
+//! 2003, Section 3.3; Smits 1998. Deviations: nodes behind what was already found are skipped, and
+//! the box test is the [robust](crate::slab::robust) one.
+
+use simd4::{SimdF32, SimdMask};
+
+use crate::Stats;
+use crate::bvh::layout::SkipArray;
+use crate::packet::{Frame, Packet, Query};
+use crate::slab::robust;
+
+/// Hands the primitives of every leaf that some ray may hit to their kernels.
+#[inline(always)]
+pub fn traverse<V: SimdF32, F: Frame<V>, Q: Query<V>>(
+    s: V::Simd,
+    array: &SkipArray,
+    packet: &Packet<V>,
+    frame: &F,
+    query: &mut Q,
+    stats: &mut Stats,
+) {
+    let nodes = array.nodes();
+    let mut i = 0;
+    let mut visits = 0;
+    while let Some(node) = nodes.get(i) {
+        visits += 1;
+        if robust::may_hit(s, &node.aabb, packet, frame, query.limit()).none() {
+            i = node.skip as usize;
+            continue;
+        }
+        i += 1;
+        if let Some(slots) = node.slots() {
+            array.store.intersect(s, slots, packet, frame, query, stats);
+            if query.done(s) {
+                break;
+            }
+        }
+    }
+    stats.node_visits += visits;
+    stats.box_tests += visits * V::LANES as u64;
+}

@@ -1,0 +1,5 @@
+//! From pixels to rays.
+
+mod pinhole;
+
+pub use pinhole::Pinhole;

@@ -1,0 +1,14 @@
+//! What rays meet, and how they meet it: plain data.
+
+mod aabb;
+mod hit;
+mod ray;
+mod sphere;
+mod triangle;
+
+pub use aabb::Aabb;
+pub(crate) use aabb::PADDING;
+pub use hit::Hit;
+pub use ray::Ray;
+pub use sphere::Sphere;
+pub use triangle::Triangle;

@@ -1,0 +1,22 @@
+//! A triangle.
+
+use glam::Vec3;
+
+use super::Aabb;
+
+/// Three corners. A triangle without area is never hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Triangle {
+    /// The corners, in world space.
+    pub corners: [Vec3; 3],
+}
+
+impl Triangle {
+    /// The own box: the bounds, padded.
+    #[inline(always)]
+    pub fn own_box(&self) -> Aabb {
+        let [a, b, c] = self.corners.map(|corner| Aabb::new(corner, corner));
+        a.union(&b).union(&c).padded()
+    }
+}

@@ -1,0 +1,81 @@
+//! Rays in bulk: streams in memory, packets in registers.
+//!
+//! A [`Packet`] holds as many rays as a register has lanes. A [`Frame`] says how it looks at the
+//! axes: [`Coherent`] if all rays agree, [`Mixed`] if not. A [`Query`] says what is asked of it:
+//! the [`Closest`] hit, or whether there is [`Any`].
+
+mod frame;
+mod query;
+mod stream;
+
+pub use frame::{Coherent, Frame, Mixed};
+pub use query::{Any, Closest, Query};
+pub use stream::{Hits, Rays};
+
+use simd4::math::Vec3;
+use simd4::{SimdF32, SimdMask};
+
+/// Rays in lanes, with what all kernels derive from them.
+///
+/// A lane without a ray, or with one that [hits nothing](crate::Ray), has an empty interval:
+/// nothing it is tested against can accept it.
+#[derive(Clone, Copy, Debug)]
+pub struct Packet<V> {
+    /// Origins.
+    pub origin: Vec3<V>,
+    /// Directions.
+    pub dir: Vec3<V>,
+    /// The reciprocal of each component of the directions, exactly rounded; ±inf for ±0.
+    pub inv: Vec3<V>,
+    /// The least `t`; +inf in lanes that hit nothing.
+    pub tmin: V,
+    /// The greatest `t`; −inf in lanes that hit nothing.
+    pub tmax: V,
+}
+
+impl<V: SimdF32> Packet<V> {
+    /// The rays from `first` on, as many as there are lanes; lanes beyond the last ray hit nothing.
+    #[inline(always)]
+    pub fn load(s: V::Simd, rays: &Rays, first: usize) -> Self {
+        let origin: Vec3<V> = load3(s, rays, 0, first);
+        let dir: Vec3<V> = load3(s, rays, 3, first);
+        let tmin: V = load(s, rays, 6, first);
+        let tmax: V = load(s, rays, 7, first);
+
+        let (zero, infinity) = (V::splat(s, 0.0), V::splat(s, f32::INFINITY));
+        let moves = dir.x.ne(zero) | dir.y.ne(zero) | dir.z.ne(zero);
+        let hits = finite(s, origin) & finite(s, dir) & moves & tmin.ge(zero) & tmin.le(tmax);
+
+        let one = V::splat(s, 1.0);
+        Packet {
+            origin,
+            dir,
+            inv: Vec3::new(one / dir.x, one / dir.y, one / dir.z),
+            tmin: hits.select(tmin, infinity),
+            tmax: hits.select(tmax, -infinity),
+        }
+    }
+
+    /// The lanes that can hit something.
+    #[inline(always)]
+    pub fn active(&self) -> V::Mask {
+        self.tmin.le(self.tmax)
+    }
+}
+
+/// One component of the rays from `first` on; NaN in the lanes beyond the last ray.
+#[inline(always)]
+fn load<V: SimdF32>(s: V::Simd, rays: &Rays, k: usize, first: usize) -> V {
+    V::load_prefix(s, &rays.component(k)[first..], f32::NAN)
+}
+
+#[inline(always)]
+fn load3<V: SimdF32>(s: V::Simd, rays: &Rays, k: usize, first: usize) -> Vec3<V> {
+    Vec3::new(load(s, rays, k, first), load(s, rays, k + 1, first), load(s, rays, k + 2, first))
+}
+
+#[inline(always)]
+fn finite<V: SimdF32>(s: V::Simd, v: Vec3<V>) -> V::Mask {
+    let infinity = V::splat(s, f32::INFINITY);
+    v.x.abs().lt(infinity) & v.y.abs().lt(infinity) & v.z.abs().lt(infinity)
+}

@@ -1,0 +1,110 @@
+//! What is asked of a packet.
+
+use simd4::{Lanes, SimdF32, SimdMask, SimdU32};
+
+use super::{Hits, Packet};
+
+/// What a traversal looks for. It prunes by [`limit`](Query::limit) and hands every hit to
+/// [`record`](Query::record).
+pub trait Query<V: SimdF32> {
+    /// The greatest `t` that still matters; −inf in lanes that are done.
+    fn limit(&self) -> V;
+
+    /// Takes a hit: in the lanes of `mask`, the primitive `prim` at `t`, which is within
+    /// [`limit`](Query::limit), with weights `u`, `v`.
+    fn record(&mut self, s: V::Simd, mask: V::Mask, prim: u32, t: V, u: V, v: V);
+
+    /// Whether nothing matters any more, in any lane.
+    fn done(&self, s: V::Simd) -> bool;
+}
+
+/// The closest hit: the least `t`, and of equal ones the lowest primitive.
+#[derive(Clone, Copy, Debug)]
+pub struct Closest<V: SimdF32> {
+    t: V,
+    u: V,
+    v: V,
+    prim: V::U32,
+}
+
+impl<V: SimdF32> Closest<V> {
+    /// No hit yet.
+    #[inline(always)]
+    pub fn new(s: V::Simd, packet: &Packet<V>) -> Self {
+        let zero = V::splat(s, 0.0);
+        Closest { t: packet.tmax, u: zero, v: zero, prim: V::U32::splat(s, Hits::NONE) }
+    }
+
+    /// Writes the hits of the rays from `first` on.
+    #[inline(always)]
+    pub fn store(self, hits: &mut Hits, first: usize) {
+        self.t.store_prefix(&mut hits.t[first..]);
+        self.u.store_prefix(&mut hits.u[first..]);
+        self.v.store_prefix(&mut hits.v[first..]);
+        self.prim.store_prefix(&mut hits.prim[first..]);
+    }
+}
+
+impl<V: SimdF32> Query<V> for Closest<V> {
+    #[inline(always)]
+    fn limit(&self) -> V {
+        self.t
+    }
+
+    #[inline(always)]
+    fn record(&mut self, s: V::Simd, mask: V::Mask, prim: u32, t: V, u: V, v: V) {
+        let prim = V::U32::splat(s, prim);
+        let wins = mask & (t.lt(self.t) | (t.eq(self.t) & prim.lt(self.prim)));
+        self.t = wins.select(t, self.t);
+        self.u = wins.select(u, self.u);
+        self.v = wins.select(v, self.v);
+        self.prim = wins.select(prim, self.prim);
+    }
+
+    #[inline(always)]
+    fn done(&self, _: V::Simd) -> bool {
+        false
+    }
+}
+
+/// Whether there is any hit.
+#[derive(Clone, Copy, Debug)]
+pub struct Any<V: SimdF32> {
+    limit: V,
+    found: V::Mask,
+}
+
+impl<V: SimdF32> Any<V> {
+    /// No hit yet.
+    #[inline(always)]
+    pub fn new(s: V::Simd, packet: &Packet<V>) -> Self {
+        Any { limit: packet.tmax, found: V::Mask::splat(s, false) }
+    }
+
+    /// Writes the answers for the rays from `first` on.
+    #[inline(always)]
+    pub fn store(self, found: &mut [bool], first: usize) {
+        let lanes = self.found.to_array();
+        for (to, lane) in found[first..].iter_mut().zip(lanes.as_ref()) {
+            *to = *lane;
+        }
+    }
+}
+
+impl<V: SimdF32> Query<V> for Any<V> {
+    #[inline(always)]
+    fn limit(&self) -> V {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn record(&mut self, s: V::Simd, mask: V::Mask, _prim: u32, _t: V, _u: V, _v: V) {
+        self.found |= mask;
+        self.limit = mask.select(V::splat(s, f32::NEG_INFINITY), self.limit);
+    }
+
+    #[inline(always)]
+    fn done(&self, s: V::Simd) -> bool {
+        self.limit.lt(V::splat(s, 0.0)).all()
+    }
+}

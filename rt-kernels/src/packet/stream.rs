@@ -1,0 +1,120 @@
+//! Rays and hits in memory, component by component (SoA), so that any packet size loads them
+//! without shuffling.
+
+use glam::Vec3;
+
+use crate::{Hit, Ray};
+
+/// A batch of rays. Neighbours share packets: the more alike they are, the faster it goes. The
+/// hits do not depend on it.
+#[derive(Clone, Debug, Default)]
+pub struct Rays {
+    /// Origin x, y, z; direction x, y, z; tmin; tmax.
+    components: [Vec<f32>; 8],
+}
+
+impl Rays {
+    /// No rays.
+    pub fn new() -> Self {
+        Rays::default()
+    }
+
+    /// Adds a ray.
+    pub fn push(&mut self, ray: Ray) {
+        let (o, d) = (ray.origin, ray.dir);
+        let values = [o.x, o.y, o.z, d.x, d.y, d.z, ray.tmin, ray.tmax];
+        for (component, value) in self.components.iter_mut().zip(values) {
+            component.push(value);
+        }
+    }
+
+    /// Removes all rays and keeps the memory.
+    pub fn clear(&mut self) {
+        self.components.iter_mut().for_each(Vec::clear);
+    }
+
+    /// The number of rays.
+    pub fn len(&self) -> usize {
+        self.components[0].len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The ray of that number.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn get(&self, i: usize) -> Ray {
+        let [ox, oy, oz, dx, dy, dz, tmin, tmax] = self.components.each_ref().map(|c| c[i]);
+        Ray { origin: Vec3::new(ox, oy, oz), dir: Vec3::new(dx, dy, dz), tmin, tmax }
+    }
+
+    /// One component of all rays.
+    #[inline(always)]
+    pub(super) fn component(&self, k: usize) -> &[f32] {
+        &self.components[k]
+    }
+}
+
+impl FromIterator<Ray> for Rays {
+    fn from_iter<I: IntoIterator<Item = Ray>>(iter: I) -> Self {
+        let mut rays = Rays::new();
+        rays.extend(iter);
+        rays
+    }
+}
+
+impl Extend<Ray> for Rays {
+    fn extend<I: IntoIterator<Item = Ray>>(&mut self, iter: I) {
+        iter.into_iter().for_each(|ray| self.push(ray));
+    }
+}
+
+/// The closest hits of a batch of rays, in the order of the rays.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hits {
+    pub(super) t: Vec<f32>,
+    pub(super) u: Vec<f32>,
+    pub(super) v: Vec<f32>,
+    pub(super) prim: Vec<u32>,
+}
+
+impl Hits {
+    /// The number of a primitive that stands for none.
+    pub(super) const NONE: u32 = u32::MAX;
+
+    /// No hits.
+    pub fn new() -> Self {
+        Hits::default()
+    }
+
+    /// The number of rays that were traced.
+    pub fn len(&self) -> usize {
+        self.prim.len()
+    }
+
+    /// Whether none were.
+    pub fn is_empty(&self) -> bool {
+        self.prim.is_empty()
+    }
+
+    /// What the ray of that number hit.
+    ///
+    /// # Panics
+    /// If no ray of that number was traced.
+    pub fn get(&self, i: usize) -> Option<Hit> {
+        let prim = self.prim[i];
+        (prim != Hits::NONE).then(|| Hit { t: self.t[i], prim, u: self.u[i], v: self.v[i] })
+    }
+
+    /// Makes room for `n` rays.
+    pub(crate) fn resize(&mut self, n: usize) {
+        self.t.resize(n, 0.0);
+        self.u.resize(n, 0.0);
+        self.v.resize(n, 0.0);
+        self.prim.resize(n, Hits::NONE);
+    }
+}

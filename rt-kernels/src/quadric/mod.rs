@@ -1,0 +1,3 @@
+//! Ray against curved surfaces, which stay curved: one file a method.
+
+pub mod sphere;

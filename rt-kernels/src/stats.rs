@@ -1,0 +1,25 @@
+//! What a traversal did.
+
+use std::ops::AddAssign;
+
+/// Counts of work. A packet counts once a node and once a lane for each test.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stats {
+    /// Nodes that a packet, or a single ray, was tested against.
+    pub node_visits: u64,
+    /// Tests of one ray against one node's box.
+    pub box_tests: u64,
+    /// Tests of one ray against one triangle.
+    pub triangle_tests: u64,
+    /// Tests of one ray against one sphere.
+    pub sphere_tests: u64,
+}
+
+impl AddAssign for Stats {
+    fn add_assign(&mut self, other: Stats) {
+        self.node_visits += other.node_visits;
+        self.box_tests += other.box_tests;
+        self.triangle_tests += other.triangle_tests;
+        self.sphere_tests += other.sphere_tests;
+    }
+}

@@ -1,0 +1,204 @@
+//! From a batch of rays to its hits: the one place where a level and a packet size are chosen.
+
+use simd4::{Level, LevelError, Simd, SimdF32, dispatch, scalar};
+
+use crate::packet::{Any, Closest, Frame, Hits, Packet, Query, Rays};
+use crate::{Brute, Bvh, Stats};
+
+/// How many rays a packet has. The hits are the same for all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PacketSize {
+    /// As many as one register of the level has lanes.
+    #[default]
+    Native,
+    /// One ray at a time, in plain scalar code, whatever the level.
+    Single,
+    /// Four rays.
+    Four,
+    /// Eight rays.
+    Eight,
+}
+
+/// How to run a batch. No choice changes the hits.
+#[derive(Clone, Copy, Debug)]
+pub struct Exec {
+    /// The instructions to use.
+    pub level: Level,
+    /// The rays that go together.
+    pub packet: PacketSize,
+}
+
+impl Exec {
+    /// The best level of this machine, and its native packets.
+    ///
+    /// # Errors
+    /// As [`Level::best`].
+    pub fn best() -> Result<Exec, LevelError> {
+        Level::best().map(Exec::at)
+    }
+
+    /// That level, and its native packets.
+    pub fn at(level: Level) -> Exec {
+        Exec { level, packet: PacketSize::Native }
+    }
+
+    /// The number of rays in a packet.
+    pub fn lanes(&self) -> usize {
+        match self.packet {
+            PacketSize::Native => self.level.lanes(),
+            PacketSize::Single => 1,
+            PacketSize::Four => 4,
+            PacketSize::Eight => 8,
+        }
+    }
+}
+
+/// What finds hits: an acceleration structure, or none.
+pub trait Accelerator: Send + Sync {
+    /// Finds the closest hit of every ray. `hits` is made as long as `rays`; work is added to
+    /// `stats`.
+    fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats);
+
+    /// Finds for every ray whether it hits anything within its interval. `found` is made as long
+    /// as `rays`; work is added to `stats`.
+    fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats);
+
+    /// The memory that the structure and its copy of the primitives take.
+    fn bytes(&self) -> usize;
+}
+
+/// The traversal of one packet, which makes an [`Accelerator`].
+pub(crate) trait Traverse: Send + Sync {
+    /// Hands every primitive that the packet may hit to its kernel.
+    fn traverse<V: SimdF32, F: Frame<V>, Q: Query<V>>(
+        &self,
+        s: V::Simd,
+        packet: &Packet<V>,
+        frame: &F,
+        query: &mut Q,
+        stats: &mut Stats,
+    );
+
+    /// See [`Accelerator::bytes`].
+    fn bytes(&self) -> usize;
+}
+
+/// A [`Traverse`] is an [`Accelerator`] at every level and packet size.
+macro_rules! accelerator {
+    ($Type:ty) => {
+        impl Accelerator for $Type {
+            fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats) {
+                hits.resize(rays.len());
+                run(exec, rays, &mut ClosestOf(self, hits), stats);
+            }
+
+            fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats) {
+                found.clear();
+                found.resize(rays.len(), false);
+                run(exec, rays, &mut AnyOf(self, found), stats);
+            }
+
+            fn bytes(&self) -> usize {
+                Traverse::bytes(self)
+            }
+        }
+    };
+}
+
+accelerator!(Brute);
+accelerator!(Bvh);
+
+/// What is done with each packet of a batch.
+trait Batch {
+    fn packet<V: SimdF32>(
+        &mut self,
+        s: V::Simd,
+        packet: &Packet<V>,
+        first: usize,
+        stats: &mut Stats,
+    );
+}
+
+struct ClosestOf<'a, T>(&'a T, &'a mut Hits);
+
+impl<T: Traverse> Batch for ClosestOf<'_, T> {
+    #[inline(always)]
+    fn packet<V: SimdF32>(
+        &mut self,
+        s: V::Simd,
+        packet: &Packet<V>,
+        first: usize,
+        stats: &mut Stats,
+    ) {
+        let mut query = Closest::new(s, packet);
+        in_frame(self.0, s, packet, &mut query, stats);
+        query.store(self.1, first);
+    }
+}
+
+struct AnyOf<'a, T>(&'a T, &'a mut [bool]);
+
+impl<T: Traverse> Batch for AnyOf<'_, T> {
+    #[inline(always)]
+    fn packet<V: SimdF32>(
+        &mut self,
+        s: V::Simd,
+        packet: &Packet<V>,
+        first: usize,
+        stats: &mut Stats,
+    ) {
+        let mut query = Any::new(s, packet);
+        in_frame(self.0, s, packet, &mut query, stats);
+        query.store(self.1, first);
+    }
+}
+
+#[inline(always)]
+fn in_frame<V: SimdF32, T: Traverse, Q: Query<V>>(
+    traverse: &T,
+    s: V::Simd,
+    packet: &Packet<V>,
+    query: &mut Q,
+    stats: &mut Stats,
+) {
+    match packet.frame(s) {
+        Ok(frame) => traverse.traverse(s, packet, &frame, query, stats),
+        Err(frame) => traverse.traverse(s, packet, &frame, query, stats),
+    }
+}
+
+/// Cuts a batch into packets, once the level and the packet size are known.
+fn run(exec: Exec, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
+    match exec.packet {
+        PacketSize::Native => dispatch!(exec.level, s => native(s, rays, batch, stats)),
+        PacketSize::Single => packets::<scalar::f32x1>(simd4::Scalar::new(), rays, batch, stats),
+        PacketSize::Four => dispatch!(exec.level, s => four(s, rays, batch, stats)),
+        PacketSize::Eight => dispatch!(exec.level, s => eight(s, rays, batch, stats)),
+    }
+}
+
+#[inline(always)]
+fn native<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
+    packets::<S::f32s>(s, rays, batch, stats);
+}
+
+#[inline(always)]
+fn four<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
+    packets::<S::f32x4>(s, rays, batch, stats);
+}
+
+#[inline(always)]
+fn eight<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
+    packets::<S::f32x8>(s, rays, batch, stats);
+}
+
+#[inline(always)]
+fn packets<V: SimdF32>(s: V::Simd, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
+    let mut done = Stats::default();
+    let mut first = 0;
+    while first < rays.len() {
+        batch.packet::<V>(s, &Packet::load(s, rays, first), first, &mut done);
+        first += V::LANES;
+    }
+    *stats += done;
+}

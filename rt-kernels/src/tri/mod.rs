@@ -1,0 +1,3 @@
+//! Ray against triangle: one file a method.
+
+pub mod watertight;
