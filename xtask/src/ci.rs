@@ -27,6 +27,13 @@ struct Step<'a> {
     needs: Option<String>,
 }
 
+impl<'a> Step<'a> {
+    /// A step that needs no other.
+    fn new(name: impl Into<String>, action: Action<'a>) -> Step<'a> {
+        Step { name: name.into(), action, needs: None }
+    }
+}
+
 /// What a step does.
 enum Action<'a> {
     /// Succeeds if the command does.
@@ -64,32 +71,28 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
 
 /// All steps, in order. Asks the machines for their levels, for which it builds `rt`.
 fn plan(sh: &Shell, Options { setup, fast }: Options) -> Vec<Step<'_>> {
-    let step =
-        |name: &str, cmd| Step { name: name.to_owned(), action: Action::Run(cmd), needs: None };
     if setup {
         setup::components(sh);
     }
-    let clippy = cmd!(sh, "cargo clippy --quiet --locked --workspace --all-targets");
-    let docs = cmd!(sh, "cargo doc --quiet --locked --workspace --no-deps");
+    let clippy = cmd!(sh, "cargo clippy --quiet --locked --keep-going --workspace --all-targets");
+    let docs = cmd!(sh, "cargo doc --quiet --locked --keep-going --workspace --no-deps");
     let mut steps = vec![
-        step("format", cmd!(sh, "cargo fmt --all --check")),
-        step("clippy", clippy.args(["--", "-D", "warnings"])),
+        Step::new("format", Action::Run(cmd!(sh, "cargo fmt --all --check"))),
+        Step::new("clippy", Action::Run(clippy.args(["--", "-D", "warnings"]))),
     ];
     if fast {
         let name = format!("test, {}, best level", HOST.arch);
-        steps.push(Step { name, action: Action::Test(cargo_test(sh, &HOST)), needs: None });
+        steps.push(Step::new(name, Action::Test(cargo_test(sh, &HOST))));
         return steps;
     }
-    steps.push(step("docs", docs.env("RUSTDOCFLAGS", "-D warnings")));
+    steps.push(Step::new("docs", Action::Run(docs.env("RUSTDOCFLAGS", "-D warnings"))));
     steps.extend(tests(sh, &HOST));
     for target in matrix::foreign() {
         match setup::target(sh, &target, setup) {
             Ok(()) => steps.extend(tests(sh, &target)),
-            Err(reason) => steps.push(Step {
-                name: format!("test, {}", target.arch),
-                action: Action::Skip(reason),
-                needs: None,
-            }),
+            Err(reason) => {
+                steps.push(Step::new(format!("test, {}", target.arch), Action::Skip(reason)));
+            }
         }
     }
     steps
@@ -98,7 +101,7 @@ fn plan(sh: &Shell, Options { setup, fast }: Options) -> Vec<Step<'_>> {
 /// All tests on one target: built once, run at the best level and then at each other.
 fn tests<'a>(sh: &'a Shell, target: &Target) -> Vec<Step<'a>> {
     let arch = target.arch;
-    println!("asking rt for the levels of {arch}");
+    println!("building rt for {arch}, which knows the levels there");
     let levels = Levels::of(sh, target);
     // So that what does not build is said once, not for each level.
     let build = format!("build tests, {arch}");
@@ -107,8 +110,8 @@ fn tests<'a>(sh: &'a Shell, target: &Target) -> Vec<Step<'a>> {
         action: Action::Test(cmd),
         needs: Some(build.clone()),
     };
-    let action = Action::Run(cargo_test(sh, target).arg("--no-run"));
-    let mut steps = vec![Step { name: build.clone(), action, needs: None }];
+    let mut steps =
+        vec![Step::new(build.clone(), Action::Run(cargo_test(sh, target).arg("--no-run")))];
     match levels {
         Ok(Levels { default, others }) => {
             // The best level without the variable, as it is for everybody.
@@ -118,8 +121,7 @@ fn tests<'a>(sh: &'a Shell, target: &Target) -> Vec<Step<'a>> {
             }));
         }
         Err(reason) => {
-            let name = format!("levels, {arch}");
-            steps.push(Step { name, action: Action::Fail(reason), needs: None });
+            steps.push(Step::new(format!("levels, {arch}"), Action::Fail(reason)));
             steps.push(test("best level", cargo_test(sh, target)));
         }
     }

@@ -145,7 +145,7 @@ fn bounds(scene: &Scene) -> Aabb {
     let mesh = &scene.mesh;
     let corners = mesh.triangles.iter().flat_map(|triangle| triangle.position);
     let points = corners.map(|i| mesh.positions[i as usize]);
-    let flat = points.fold(Aabb::EMPTY, |all, point| all.union(&Aabb::new(point, point)));
+    let flat = points.fold(Aabb::EMPTY, |all, point| all.union(&Aabb::point(point)));
     scene.spheres.iter().fold(flat, |all, sphere| {
         let r = Vec3::splat(sphere.radius);
         all.union(&Aabb::new(sphere.center - r, sphere.center + r))
@@ -155,7 +155,7 @@ fn bounds(scene: &Scene) -> Aabb {
 /// The power of two that brings the greatest coordinate near 1, if it is not within 2^±20 already:
 /// then no product of the kernels overflows or vanishes. It changes no bit of any mantissa.
 fn range_scale(bounds: &Aabb) -> f32 {
-    let greatest = bounds.corners.iter().flatten().fold(0.0, |max: f32, x| max.max(x.abs()));
+    let greatest = bounds.axes.as_flattened().iter().fold(0.0, |max: f32, x| max.max(x.abs()));
     if greatest == 0.0 || (1.0 / (1 << 20) as f32..=(1 << 20) as f32).contains(&greatest) {
         return 1.0;
     }

@@ -100,12 +100,17 @@ pub(crate) struct Word<'a> {
 }
 
 impl Word<'_> {
-    /// For messages: in quotes, fit for a terminal, not too long.
-    pub(crate) fn quoted(&self) -> String {
+    /// For messages: fit for a terminal, not too long.
+    pub(crate) fn shown(&self) -> String {
         let (text, cut) = first(self.text, 4 * QUOTE);
         let text = printable(text);
         let more = if cut || text.chars().count() > QUOTE { "…" } else { "" };
-        format!("'{}{more}'", text.chars().take(QUOTE).collect::<String>())
+        text.chars().take(QUOTE).collect::<String>() + more
+    }
+
+    /// The same in quotes.
+    pub(crate) fn quoted(&self) -> String {
+        format!("'{}'", self.shown())
     }
 
     /// The finite number that this word is, or a message.

@@ -2,15 +2,14 @@
 
 use glam::Vec3;
 
-/// An axis-aligned box with closed sides: `corners[0]` is its minimum, `corners[1]` its maximum.
+/// An axis-aligned box with closed sides: for each axis its minimum and its maximum.
 ///
-/// The corners are an array so that a ray picks the nearer one of an axis by the sign of its
-/// direction.
+/// An axis is an array so that a ray picks the nearer side by the sign of its direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Aabb {
-    /// Minimum and maximum.
-    pub corners: [[f32; 3]; 2],
+    /// Minimum and maximum on x, y and z.
+    pub axes: [[f32; 2]; 3],
 }
 
 /// The padding, relative to a primitive's extent and, in [`slab`](crate::slab), to `t`:
@@ -25,24 +24,31 @@ pub(crate) const PADDING: f32 = 1.0 / (1 << 19) as f32;
 
 impl Aabb {
     /// The box of nothing: its union with any box is that box.
-    pub const EMPTY: Aabb = Aabb { corners: [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]] };
+    pub const EMPTY: Aabb = Aabb { axes: [[f32::INFINITY, f32::NEG_INFINITY]; 3] };
 
     /// From its corners.
+    #[inline(always)]
     pub fn new(min: Vec3, max: Vec3) -> Self {
-        Aabb { corners: [min.to_array(), max.to_array()] }
+        Aabb { axes: [[min.x, max.x], [min.y, max.y], [min.z, max.z]] }
+    }
+
+    /// The box of one point.
+    #[inline(always)]
+    pub fn point(point: Vec3) -> Self {
+        Aabb::new(point, point)
     }
 
     /// The least corner.
     pub fn min(&self) -> Vec3 {
-        Vec3::from_array(self.corners[0])
+        Vec3::from_array(self.axes.map(|[min, _]| min))
     }
 
     /// The greatest corner.
     pub fn max(&self) -> Vec3 {
-        Vec3::from_array(self.corners[1])
+        Vec3::from_array(self.axes.map(|[_, max]| max))
     }
 
-    /// The length along each axis.
+    /// The length along each axis; negative for an empty box.
     pub fn extent(&self) -> Vec3 {
         self.max() - self.min()
     }
@@ -51,21 +57,21 @@ impl Aabb {
     #[inline(always)]
     #[must_use]
     pub fn union(&self, other: &Aabb) -> Aabb {
-        let [min, max] = &self.corners;
-        let [other_min, other_max] = &other.corners;
         Aabb {
-            corners: [
-                [0, 1, 2].map(|k| if min[k] < other_min[k] { min[k] } else { other_min[k] }),
-                [0, 1, 2].map(|k| if max[k] > other_max[k] { max[k] } else { other_max[k] }),
-            ],
+            axes: [0, 1, 2].map(|k| {
+                let ([min, max], [other_min, other_max]) = (self.axes[k], other.axes[k]);
+                [
+                    if min < other_min { min } else { other_min },
+                    if max > other_max { max } else { other_max },
+                ]
+            }),
         }
     }
 
     /// Half the area of the surface; 0 for an empty box.
     #[inline(always)]
     pub fn half_area(&self) -> f32 {
-        let [min, max] = &self.corners;
-        let [x, y, z] = [0, 1, 2].map(|k| max[k] - min[k]);
+        let [x, y, z] = self.axes.map(|[min, max]| max - min);
         if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
     }
 
@@ -74,19 +80,21 @@ impl Aabb {
     #[inline(always)]
     #[must_use]
     pub fn padded(&self) -> Aabb {
-        let [min, max] = &self.corners;
-        let [x, y, z] = [0, 1, 2].map(|k| max[k] - min[k]);
+        let [x, y, z] = self.axes.map(|[min, max]| max - min);
         let xy = if x > y { x } else { y };
         let extent = if xy > z { xy } else { z };
-        let pad = [0, 1, 2].map(|k| {
-            let (low, high) = (min[k].abs(), max[k].abs());
-            extent * PADDING + (if low > high { low } else { high }) * f32::EPSILON
-        });
-        Aabb { corners: [[0, 1, 2].map(|k| min[k] - pad[k]), [0, 1, 2].map(|k| max[k] + pad[k])] }
+        Aabb {
+            axes: self.axes.map(|[min, max]| {
+                let (low, high) = (min.abs(), max.abs());
+                let magnitude = if low > high { low } else { high };
+                let pad = extent * PADDING + magnitude * f32::EPSILON;
+                [min - pad, max + pad]
+            }),
+        }
     }
 
     /// Whether every coordinate is finite.
     pub fn is_finite(&self) -> bool {
-        self.corners.iter().flatten().all(|x| x.is_finite())
+        self.axes.as_flattened().iter().all(|x| x.is_finite())
     }
 }

@@ -16,7 +16,7 @@ impl Triangle {
     /// The own box: the bounds, padded.
     #[inline(always)]
     pub fn own_box(&self) -> Aabb {
-        let [a, b, c] = self.corners.map(|corner| Aabb::new(corner, corner));
+        let [a, b, c] = self.corners.map(Aabb::point);
         a.union(&b).union(&c).padded()
     }
 }

@@ -15,7 +15,7 @@ pub trait Frame<V: SimdF32> {
     fn near_far(&self, s: V::Simd, aabb: &Aabb) -> (Vec3<V>, Vec3<V>);
 
     /// A point, seen from the rays' origins, with the dominant axis as its z.
-    fn relative(&self, s: V::Simd, point: [f32; 3]) -> Vec3<V>;
+    fn relative(&self, s: V::Simd, point: &[f32; 3]) -> Vec3<V>;
 
     /// The shear that turns the rays into the z axis.
     fn shear(&self) -> &Shear<V>;
@@ -45,8 +45,10 @@ impl<V: SimdF32> Shear<V> {
 /// All rays of the packet agree in the signs of their directions and in the dominant axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Coherent<V> {
-    /// For each axis, the corner of a box that is the nearer one.
+    /// For each axis, which side of a box is the nearer one.
     near: [usize; 3],
+    /// And which is the farther one.
+    far: [usize; 3],
     axes: [usize; 3],
     shear: Shear<V>,
 }
@@ -84,7 +86,9 @@ impl<V: SimdF32> Packet<V> {
             };
             let (origin, dir) = (reorder(axes, self.origin), reorder(axes, self.dir));
             let shear = Shear::new(origin, dir, reorder(axes, self.inv));
-            return Ok(Coherent { near: [x.into(), y.into(), z.into()], axes, shear });
+            let near = [x.into(), y.into(), z.into()];
+            let far = [(!x).into(), (!y).into(), (!z).into()];
+            return Ok(Coherent { near, far, axes, shear });
         }
         let (origin, dir) = (permute(dominant, self.origin), permute(dominant, self.dir));
         let shear = Shear::new(origin, dir, permute(dominant, self.inv));
@@ -121,16 +125,16 @@ fn permute<V: SimdF32>([x, y]: [V::Mask; 2], v: Vec3<V>) -> Vec3<V> {
 impl<V: SimdF32> Frame<V> for Coherent<V> {
     #[inline(always)]
     fn near_far(&self, s: V::Simd, aabb: &Aabb) -> (Vec3<V>, Vec3<V>) {
-        let [x, y, z] = self.near;
-        // The masks tell the compiler that there are but two corners.
-        let corners = &aabb.corners;
-        let near = [corners[x & 1][0], corners[y & 1][1], corners[z & 1][2]];
-        let far = [corners[!x & 1][0], corners[!y & 1][1], corners[!z & 1][2]];
+        let ([nx, ny, nz], [fx, fy, fz]) = (self.near, self.far);
+        // The masks tell the compiler that there are but two sides.
+        let [x, y, z] = &aabb.axes;
+        let near = [x[nx & 1], y[ny & 1], z[nz & 1]];
+        let far = [x[fx & 1], y[fy & 1], z[fz & 1]];
         (Vec3::splat(s, near), Vec3::splat(s, far))
     }
 
     #[inline(always)]
-    fn relative(&self, s: V::Simd, point: [f32; 3]) -> Vec3<V> {
+    fn relative(&self, s: V::Simd, point: &[f32; 3]) -> Vec3<V> {
         let [kx, ky, kz] = self.axes;
         Vec3::splat(s, [point[kx % 3], point[ky % 3], point[kz % 3]]) - self.shear.origin
     }
@@ -144,8 +148,8 @@ impl<V: SimdF32> Frame<V> for Coherent<V> {
 impl<V: SimdF32> Frame<V> for Mixed<V> {
     #[inline(always)]
     fn near_far(&self, s: V::Simd, aabb: &Aabb) -> (Vec3<V>, Vec3<V>) {
-        let [low, high] = aabb.corners;
-        let (low, high) = (Vec3::splat(s, low), Vec3::splat(s, high));
+        let [[x0, x1], [y0, y1], [z0, z1]] = aabb.axes;
+        let (low, high) = (Vec3::splat(s, [x0, y0, z0]), Vec3::splat(s, [x1, y1, z1]));
         let [x, y, z] = self.negative;
         let near =
             Vec3::new(x.select(high.x, low.x), y.select(high.y, low.y), z.select(high.z, low.z));
@@ -155,8 +159,8 @@ impl<V: SimdF32> Frame<V> for Mixed<V> {
     }
 
     #[inline(always)]
-    fn relative(&self, s: V::Simd, point: [f32; 3]) -> Vec3<V> {
-        permute(self.dominant, Vec3::splat(s, point)) - self.shear.origin
+    fn relative(&self, s: V::Simd, point: &[f32; 3]) -> Vec3<V> {
+        permute(self.dominant, Vec3::splat(s, *point)) - self.shear.origin
     }
 
     #[inline(always)]

@@ -48,9 +48,9 @@ pub fn intersect<V: SimdF32, F: Frame<V>, Q: Query<V>>(
     query: &mut Q,
 ) {
     let shear = frame.shear();
-    let a = frame.relative(s, triangle.a);
-    let b = frame.relative(s, triangle.b);
-    let c = frame.relative(s, triangle.c);
+    let a = frame.relative(s, &triangle.a);
+    let b = frame.relative(s, &triangle.b);
+    let c = frame.relative(s, &triangle.c);
     let (ax, ay) = (a.x - shear.x * a.z, a.y - shear.y * a.z);
     let (bx, by) = (b.x - shear.x * b.z, b.y - shear.y * b.z);
     let (cx, cy) = (c.x - shear.x * c.z, c.y - shear.y * c.z);
@@ -71,16 +71,17 @@ pub fn intersect<V: SimdF32, F: Frame<V>, Q: Query<V>>(
     let [u, v, w] = edges;
     let det = u + v + w;
     // Without area all is 0, and the NaN that results is within no limit.
-    let t = (u * a.z + v * b.z + w * c.z) * shear.z / det;
+    let inv_det = V::splat(s, 1.0) / det;
+    let t = (u * a.z + v * b.z + w * c.z) * shear.z * inv_det;
     let candidates = inside & packet.tmin.le(t) & t.le(query.limit());
     if candidates.none() {
         return;
     }
-    let (enter, exit) = robust::enter_exit(s, &triangle.own_box(), packet, frame);
+    let (enter, exit) = robust::enter_exit(s, &triangle.own_box(s), packet, frame);
     let t = t.max(enter);
     let hits = candidates & enter.le(exit) & packet.tmin.le(exit) & t.le(query.limit());
     if hits.any() {
-        query.record(s, hits, triangle.prim, t, v / det, w / det);
+        query.record(s, hits, triangle.prim, t, v * inv_det, w * inv_det);
     }
 }
 

@@ -278,7 +278,8 @@ impl<'a> Reader<'a> {
         let of_negative = "of negative radius, to be seen from inside only: seen from both sides";
         warn(inside_out, "sphere", of_negative);
         warn(transparent, "surface", "with transmittance: drawn opaque");
-        self.scene.finish();
+        scene.facts.warnings.extend(self.triangulator.warning());
+        scene.finish();
         self.scene
     }
 

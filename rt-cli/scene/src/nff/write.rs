@@ -129,11 +129,15 @@ impl<W: Write> Writer<'_, W> {
     }
 }
 
-/// A colour whose greatest component is one, and Kd, if their product has the same bits.
+/// A colour whose greatest component is one, and Kd, if their product has the same bits; the colour
+/// in few digits, if that can be.
 fn split_diffuse(diffuse: Vec3) -> (Vec3, f32) {
+    const DIGITS: f32 = 1e5;
     let kd = diffuse.max_element();
     let color = diffuse / kd;
-    if color.is_finite() && color * kd == diffuse { (color, kd) } else { (diffuse, 1.0) }
+    let short = (color * DIGITS).round() / DIGITS;
+    let good = [short, color].into_iter().find(|&color| color * kd == diffuse);
+    good.map_or((diffuse, 1.0), |color| (color, kd))
 }
 
 /// The one strength that stands for highlights and mirror reflections.

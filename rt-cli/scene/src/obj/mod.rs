@@ -44,13 +44,13 @@ pub fn parse(bytes: &[u8], name: &str, library: &mut Loader<'_>) -> Result<Scene
     let no_library = |_: &Path| Err(LoadError::GenericFailure);
     let loaded = tobj::load_obj_buf(&mut reader, &LoadOptions::default(), no_library);
     let outline = reader.finish()?;
-    let (models, _) =
+    let (mut models, _) =
         loaded.map_err(|error| Error::Invalid(vec![Diagnostic::whole(name, error.to_string())]))?;
     let mut scene = Scene { name: crate::base_name(name), ..Scene::default() };
     let materials = use_materials(&mut scene, &source, &outline, library);
     scene.facts.stated.insert("polygon", outline.faces as u64);
-    for model in models {
-        build_mesh(&mut scene, model.mesh, &outline, &materials);
+    if let Some(model) = models.pop() {
+        build_mesh(&mut scene, &model.mesh, &outline, &materials);
     }
     let unused = outline.counts[0].saturating_sub(scene.mesh.positions.len()) as u64;
     if unused > 0 {
@@ -108,7 +108,7 @@ fn push(materials: &mut Vec<Material>, material: Material) -> u32 {
 }
 
 /// Triangulates the one mesh that tobj makes of the clean text.
-fn build_mesh(scene: &mut Scene, mesh: tobj::Mesh, outline: &Outline<'_>, materials: &[u32]) {
+fn build_mesh(scene: &mut Scene, mesh: &tobj::Mesh, outline: &Outline<'_>, materials: &[u32]) {
     let vectors = |flat: &[f32]| flat.as_chunks().0.iter().map(|&v| Vec3::from_array(v)).collect();
     scene.mesh = Mesh { positions: vectors(&mesh.positions), ..Mesh::default() };
     if outline.runs.iter().any(|run| run.normals) {
@@ -141,6 +141,5 @@ fn build_mesh(scene: &mut Scene, mesh: tobj::Mesh, outline: &Outline<'_>, materi
             material,
         }));
     }
-    let warning = triangulator.warning();
-    scene.facts.warnings.extend(warning.map(|warning| format!("{}: {warning}", scene.name)));
+    scene.facts.warnings.extend(triangulator.warning());
 }

@@ -5,12 +5,12 @@ use std::io;
 
 use glam::Vec3;
 
-use crate::diag::{MAX_DIAGNOSTICS, reason};
+use crate::diag::{MAX_DIAGNOSTICS, plural, reason};
 use crate::model::Material;
 use crate::text::{Lexer, Source, Word, decode};
 
-/// No more libraries than this are opened for one file.
-const MAX_LIBRARIES: usize = 256;
+/// No more names than this are tried for one file.
+const MAX_LIBRARIES: usize = 64;
 
 /// Gives the bytes of a material library by the name that the OBJ file states.
 pub type Loader<'a> = dyn FnMut(&str) -> io::Result<Vec<u8>> + 'a;
@@ -19,7 +19,7 @@ pub type Loader<'a> = dyn FnMut(&str) -> io::Result<Vec<u8>> + 'a;
 #[derive(Default)]
 pub(super) struct Libraries {
     materials: HashMap<String, Material>,
-    opened: HashSet<String>,
+    tried: HashSet<String>,
     pub(super) warnings: Vec<String>,
 }
 
@@ -45,11 +45,16 @@ impl Libraries {
     }
 
     fn open_one(&mut self, name: &str, load: &mut Loader<'_>) -> io::Result<()> {
-        if self.opened.contains(name) || self.opened.len() == MAX_LIBRARIES {
+        if !self.tried.insert(name.to_owned()) || self.tried.len() > MAX_LIBRARIES + 1 {
+            return Ok(());
+        }
+        if self.tried.len() > MAX_LIBRARIES {
+            let rest =
+                format!("more than {MAX_LIBRARIES} material libraries: the rest is not read");
+            self.warnings.push(rest);
             return Ok(());
         }
         let bytes = load(name)?;
-        self.opened.insert(name.to_owned());
         match Source::new(name, &bytes, "MTL") {
             Ok(source) => self.read(&source),
             Err(error) => self.warnings.push(error.to_string()),
@@ -60,16 +65,17 @@ impl Libraries {
     fn read(&mut self, source: &Source<'_>) {
         let mut cleaner = Cleaner::new(*source);
         cleaner.run();
-        match tobj::load_mtl_buf(&mut cleaner.clean.as_slice()) {
+        let Cleaner { clean, names, mut warnings, .. } = cleaner;
+        match tobj::load_mtl_buf(&mut clean.as_slice()) {
             Ok((materials, _)) => {
-                for (name, material) in cleaner.names.iter().zip(materials) {
+                for (name, material) in names.iter().zip(materials) {
                     let name = decode(name.text).into_owned();
                     self.materials.insert(name.clone(), convert(name, &material));
                 }
             }
-            Err(error) => cleaner.warnings.push(format!("{}: {error}", source.name)),
+            Err(error) => warnings.push(format!("{}: {error}", source.name)),
         }
-        self.warnings.append(&mut cleaner.warnings);
+        self.warnings.append(&mut warnings);
     }
 }
 
@@ -119,6 +125,8 @@ struct Cleaner<'a> {
     lexer: Lexer<'a>,
     clean: Vec<u8>,
     names: Vec<Word<'a>>,
+    /// The first statement of a texture, and all that it and others name.
+    texture: Option<Word<'a>>,
     textures: HashSet<&'a [u8]>,
     warnings: Vec<String>,
 }
@@ -130,28 +138,39 @@ impl<'a> Cleaner<'a> {
             lexer: Lexer::new(source.text),
             clean: Vec::new(),
             names: Vec::new(),
+            texture: None,
             textures: HashSet::new(),
             warnings: Vec::new(),
         }
     }
 
     fn run(&mut self) {
+        let mut wrong = 0;
         loop {
-            if let Some(keyword) = self.lexer.word() {
-                let before = self.clean.len();
-                if let Err((at, message)) = self.statement(keyword) {
-                    self.clean.truncate(before);
+            if let Some(keyword) = self.lexer.word()
+                && let Err((at, message)) = self.statement(keyword)
+            {
+                wrong += 1;
+                if wrong <= MAX_DIAGNOSTICS {
                     self.warnings.push(self.source.warning(at, message));
-                }
-                if self.warnings.len() == MAX_DIAGNOSTICS {
-                    let stop = format!("{}: more is wrong; the rest is not read", self.source.name);
-                    self.warnings.push(stop);
-                    return;
                 }
             }
             if !self.lexer.next_line() {
-                return;
+                break;
             }
+        }
+        if wrong > MAX_DIAGNOSTICS {
+            let more = plural((wrong - MAX_DIAGNOSTICS) as u64, "more line");
+            self.warnings.push(format!("{}: {more} left out", self.source.name));
+        }
+        if let Some(first) = self.texture {
+            let others = match self.textures.len() - 1 {
+                0 => String::new(),
+                count => format!(" and {}", plural(count as u64, "other")),
+            };
+            let texture = first.shown();
+            let message = format!("{texture}{others}: textures are not drawn yet");
+            self.warnings.push(self.source.warning(first.at, message));
         }
     }
 
@@ -219,11 +238,8 @@ impl<'a> Cleaner<'a> {
 
     fn texture(&mut self, keyword: Word<'a>) {
         let name = self.lexer.rest();
-        if self.textures.insert(name.text) {
-            let kind = decode(keyword.text);
-            let name = name.quoted();
-            let message = format!("{kind} {}: textures are not drawn yet", name.trim_matches('\''));
-            self.warnings.push(self.source.warning(keyword.at, message));
-        }
+        self.textures.insert(name.text);
+        let whole = &self.source.text[keyword.at..name.at + name.text.len()];
+        self.texture.get_or_insert(Word { at: keyword.at, text: whole });
     }
 }

@@ -292,15 +292,15 @@ impl<'a> Reader<'a> {
 
     fn check_index(&mut self, list: usize, index: i64) -> Result<(), String> {
         let (_, _, one, many) = LISTS[list];
-        let so_far = self.outline.counts[list] as i64;
+        let total = |count: i64| format!("{count} {}", if count == 1 { one } else { many });
+        let (so_far, limit) = (self.outline.counts[list] as i64, self.limits[list]);
         self.highest[list] = self.highest[list].max(index);
         if index == 0 {
             Err(format!("{one} index 0 is out of range: indices start at 1"))
         } else if index < -so_far {
-            Err(format!("{one} index {index} is out of range: there are {so_far} {many} so far"))
-        } else if index > self.limits[list] {
-            let total = self.limits[list];
-            Err(format!("{one} index {index} is out of range: the file has {total} {many}"))
+            Err(format!("{one} index {index} is out of range: only {} so far", total(so_far)))
+        } else if index > limit {
+            Err(format!("{one} index {index} is out of range: the file has {}", total(limit)))
         } else {
             Ok(())
         }

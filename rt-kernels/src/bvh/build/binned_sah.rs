@@ -57,8 +57,7 @@ fn subtree(references: &mut [Reference], first: usize, depth: usize, join: &impl
 
 /// Twice the centre of a box.
 fn center(aabb: &Aabb) -> [f32; 3] {
-    let [min, max] = &aabb.corners;
-    [0, 1, 2].map(|k| min[k] + max[k])
+    aabb.axes.map(|[min, max]| min + max)
 }
 
 /// From centres to bins, on all axes.
@@ -72,16 +71,18 @@ impl Binning {
     fn new(references: &[Reference]) -> Binning {
         let centers = references.iter().fold(Aabb::EMPTY, |all, one| {
             let center = center(&one.aabb);
-            all.union(&Aabb { corners: [center, center] })
+            all.union(&Aabb { axes: center.map(|center| [center, center]) })
         });
-        let [origin, end] = centers.corners;
-        Binning { origin, scale: [0, 1, 2].map(|k| BINS as f32 / (end[k] - origin[k])) }
+        Binning {
+            origin: centers.axes.map(|[min, _]| min),
+            scale: centers.axes.map(|[min, max]| BINS as f32 / (max - min)),
+        }
     }
 
     /// The bin of a reference on one axis. (`as` makes 0 of the NaN of an axis without extent.)
     fn bin(&self, reference: &Reference, axis: usize) -> usize {
-        let [min, max] = &reference.aabb.corners;
-        let along = (min[axis] + max[axis] - self.origin[axis]) * self.scale[axis];
+        let [min, max] = reference.aabb.axes[axis];
+        let along = (min + max - self.origin[axis]) * self.scale[axis];
         (along as usize).min(BINS - 1)
     }
 }

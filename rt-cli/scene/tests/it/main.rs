@@ -1,0 +1,12 @@
+//! Readers and writers of scenes, from outside.
+
+mod mtl;
+mod mutations;
+mod nff;
+mod obj;
+mod obj_errors;
+mod opening;
+mod polygons;
+mod samples;
+mod spd;
+mod support;

@@ -1,0 +1,168 @@
+//! Damaged files: whatever happens to the bytes, nothing panics and memory stays within bounds.
+
+use std::io;
+
+use proptest::prelude::*;
+use rt_scene::{Error, Scene};
+
+const OBJ: &str = "mtllib a.mtl b.mtl\r\nv 0 0 0\nv 1 0 0 # one\nv 1 1.5e0 -0.25\nv 0 1 0\nv .5 2 0\n\
+    vt 0 0\nvt 1 0\nvn 0 0 1\nusemtl red\ns off\nf 1/1/1 2/2/1 3/1/1\nf -5//1 -4//1 -2//1 \\\n-1//1\n\
+    g café\nusemtl blue\nf 1 2 3 4 5\nl 1 2\nf 4/1 3/2 1/2\n";
+
+const MTL: &str = "newmtl red\nKd 1 0 0 # red\nKs .5 .5 .5\nNs 12\nillum 3\nKe 1 2 3\n\
+    newmtl blue\nKd 0.25\nmap_Kd x.png\nd 0.5\n";
+
+const NFF: &str = "b 0.1 0.2 0.3\nv\nfrom 1 2 3\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\n\
+    resolution 64 48\nl 1 2 3\nl 4 5 6 1 1 0.5\nf 1 0.5 0.25 0.5 0.25 10 0 1\ns 1 2 3 4\n\
+    c 0 0 0 1 0 0 1 0.5\np 5\n0 0 0\n1 0 0\n1 1 0\n0.5 0.5 0\n0 1 0\n# end\n\
+    pp 3\n0 0 0 0 0 1\n1 0 0 0 1 1\n0 1 0 1 0 1\n";
+
+/// What may be put into a file: bytes that mean something to a reader, and any other.
+fn piece() -> impl Strategy<Value = Vec<u8>> {
+    let words = [
+        "f",
+        "v",
+        "p",
+        "\n",
+        "\r",
+        "\\\n",
+        "/",
+        "//",
+        "-",
+        "0",
+        "1e999",
+        "nan",
+        "4294967295",
+        " ",
+        "-1",
+        "18446744073709551615",
+        "9223372036854775807",
+        "#",
+        "\u{FEFF}",
+        "usemtl ",
+        "é",
+        "\0",
+        "1e-45",
+        "3e38",
+        "p 4000000000\n",
+        "f 1 2 3 4 5 1 2 3 4 5\n",
+        "newmtl ",
+        "Kd ",
+        "mtllib ",
+    ];
+    let any_byte = any::<u8>().prop_map(|byte| vec![byte]);
+    prop_oneof![
+        prop::sample::select(words.to_vec()).prop_map(|word| word.as_bytes().to_vec()),
+        any_byte
+    ]
+}
+
+/// A file with some places cut out or overwritten, and perhaps its end missing.
+fn damaged(text: &'static str) -> impl Strategy<Value = Vec<u8>> {
+    let change = (any::<prop::sample::Index>(), 0..4_usize, piece());
+    let end = prop_oneof![3 => Just(None), 1 => any::<prop::sample::Index>().prop_map(Some)];
+    (prop::collection::vec(change, 1..6), end).prop_map(|(changes, end)| {
+        let mut bytes = text.as_bytes().to_vec();
+        for (place, removed, piece) in changes {
+            let start = place.index(bytes.len() + 1);
+            let stop = bytes.len().min(start + removed);
+            bytes.splice(start..stop, piece);
+        }
+        if let Some(end) = end {
+            bytes.truncate(end.index(bytes.len() + 1));
+        }
+        bytes
+    })
+}
+
+fn parse_obj(obj: &[u8], mtl: &[u8]) -> Result<Scene, Error> {
+    rt_scene::obj::parse(obj, "t.obj", &mut |name| match name {
+        "a.mtl" => Ok(mtl.to_vec()),
+        _ => Err(io::ErrorKind::NotFound.into()),
+    })
+}
+
+/// A scene must be sound, and no larger than its file allows; an error must be short.
+fn check(result: &Result<Scene, Error>, bytes: usize) {
+    let scene = match result {
+        Ok(scene) => scene,
+        Err(error) => {
+            assert!(error.to_string().len() < 10_000, "{error}");
+            return;
+        }
+    };
+    let mesh = &scene.mesh;
+    let memory = 12 * (mesh.positions.capacity() + mesh.normals.capacity())
+        + 32 * mesh.triangles.capacity()
+        + 20 * scene.spheres.capacity();
+    assert!(memory <= 64 * bytes + 4096, "{memory} bytes for {bytes}");
+    assert!(mesh.positions.iter().chain(&mesh.normals).all(|v| v.is_finite()));
+    let materials = scene.materials.len() as u32;
+    for triangle in &mesh.triangles {
+        assert!(triangle.position.iter().all(|&i| (i as usize) < mesh.positions.len()));
+        let normals = triangle.normal.unwrap_or([0; 3]);
+        assert!(
+            triangle.normal.is_none() || normals.iter().all(|&i| (i as usize) < mesh.normals.len())
+        );
+        assert!(triangle.material < materials);
+    }
+    for sphere in &scene.spheres {
+        assert!(sphere.center.is_finite() && sphere.radius.is_finite() && sphere.radius > 0.0);
+        assert!(sphere.material < materials);
+    }
+    for m in &scene.materials {
+        let colors = [m.diffuse, m.specular, m.mirror, m.emission];
+        assert!(colors.iter().all(|color| color.is_finite()) && m.shininess.is_finite(), "{m:?}");
+    }
+    assert!(scene.bounds().is_none_or(|(low, high)| low.is_finite() && high.is_finite()));
+}
+
+#[test]
+fn the_files_are_good() {
+    let scene = parse_obj(OBJ.as_bytes(), MTL.as_bytes()).unwrap();
+    assert_eq!((scene.mesh.triangles.len(), scene.materials.len()), (7, 2));
+    let scene = rt_scene::nff::parse(NFF.as_bytes(), "t.nff").unwrap();
+    assert_eq!((scene.mesh.triangles.len(), scene.spheres.len()), (4, 1));
+}
+
+#[test]
+fn every_truncation() {
+    for end in 0..OBJ.len() {
+        check(&parse_obj(&OBJ.as_bytes()[..end], MTL.as_bytes()), end);
+    }
+    for end in 0..MTL.len() {
+        let result = parse_obj(OBJ.as_bytes(), &MTL.as_bytes()[..end]);
+        assert!(result.is_ok(), "a library never fails a file");
+        check(&result, OBJ.len() + end);
+    }
+    for end in 0..NFF.len() {
+        check(&rt_scene::nff::parse(&NFF.as_bytes()[..end], "t.nff"), end);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn damaged_obj(bytes in damaged(OBJ)) {
+        check(&parse_obj(&bytes, MTL.as_bytes()), bytes.len());
+    }
+
+    #[test]
+    fn damaged_mtl(bytes in damaged(MTL)) {
+        let result = parse_obj(OBJ.as_bytes(), &bytes);
+        prop_assert!(result.is_ok(), "a library never fails a file");
+        check(&result, OBJ.len() + bytes.len());
+    }
+
+    #[test]
+    fn damaged_nff(bytes in damaged(NFF)) {
+        check(&rt_scene::nff::parse(&bytes, "t.nff"), bytes.len());
+    }
+
+    #[test]
+    fn any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        check(&parse_obj(&bytes, &bytes), bytes.len());
+        check(&rt_scene::nff::parse(&bytes, "t.nff"), bytes.len());
+    }
+}

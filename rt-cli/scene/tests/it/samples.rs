@@ -1,0 +1,91 @@
+//! The sample scenes, where they are there: counts that were made by other means.
+
+use rt_scene::{Scene, nff, open, spd};
+
+use crate::support::sample;
+
+fn open_sample(name: &str) -> Option<Scene> {
+    Some(open(sample(name)?.to_str()?).unwrap())
+}
+
+#[test]
+fn obj_counts() {
+    for (name, polygons, triangles, flat) in [
+        ("obj/bunny.obj", 69_451, 69_451, 0),
+        ("obj/dragon.obj", 871_414, 871_414, 108),
+        ("obj/conference.obj", 331_179, 331_179, 53_627),
+        ("obj/teapot.obj", 6_320, 6_320, 0),
+        ("obj/spot/spot.obj", 5_856, 5_856, 0),
+        ("obj/spot/spot_quads.obj", 2_928, 5_856, 0),
+        ("obj/cornell/CornellBox-Original.obj", 18, 36, 0),
+        ("obj/cornell/CornellBox-Empty-Squashed.obj", 6, 12, 0),
+        ("obj/cornell/CornellBox-Water.obj", 7_088, 7_088, 0),
+    ] {
+        let Some(scene) = open_sample(name) else { continue };
+        assert_eq!(scene.facts.stated["polygon"], polygons, "{name}");
+        assert_eq!(scene.mesh.triangles.len(), triangles, "{name}");
+        let warning = format!("{flat} triangles have no area and cannot be seen");
+        let warned = scene.facts.warnings.contains(&warning);
+        assert_eq!(warned, flat > 0, "{name}: {:?}", scene.facts.warnings);
+    }
+}
+
+#[test]
+fn cornell_materials() {
+    let Some(scene) = open_sample("obj/cornell/CornellBox-Mirror.obj") else { return };
+    assert!(scene.facts.warnings.is_empty(), "{:?}", scene.facts.warnings);
+    let named = |name: &str| scene.materials.iter().find(|m| m.name == name).unwrap();
+    assert_eq!(named("leftWall").diffuse.to_array(), [0.63, 0.065, 0.05]);
+    assert_eq!(named("leftWall").mirror.to_array(), [0.0; 3]);
+    assert_eq!(named("tallBox").mirror.to_array(), [0.95; 3]);
+    assert_eq!(named("tallBox").shininess, 1000.0);
+    assert_eq!(named("light").emission.to_array(), [17.0, 12.0, 4.0]);
+}
+
+/// The samples have six digits.
+#[test]
+fn balls_are_where_they_should_be() {
+    for size in [1, 3, 4] {
+        let Some(path) = sample(&format!("spd/balls_s{size}.nff")) else { continue };
+        let expected = nff::read(&path).unwrap();
+        let scene = spd::generate("balls", Some(size)).unwrap();
+        assert_eq!(scene.spheres.len(), expected.spheres.len());
+        for (nth, (a, b)) in scene.spheres.iter().zip(&expected.spheres).enumerate() {
+            let close = a.center.abs_diff_eq(b.center, 1e-5) && (a.radius - b.radius).abs() < 1e-5;
+            assert!(close && a.material == b.material, "sphere {nth} of size {size}: {a:?}, {b:?}");
+        }
+        assert_eq!(scene.mesh.positions, expected.mesh.positions);
+        assert_eq!(scene.mesh.triangles, expected.mesh.triangles);
+        assert_eq!(scene.materials, expected.materials);
+        assert_eq!(scene.lights, expected.lights);
+        assert_eq!((scene.view, scene.background), (expected.view, expected.background));
+        assert_eq!(scene.facts.stated, expected.facts.stated);
+    }
+}
+
+/// Primitives as the databases' documentation counts them.
+#[test]
+fn nff_counts() {
+    for (name, stated) in [
+        ("rings_s7", vec![("cylinder", 4200), ("polygon", 1), ("sphere", 4200)]),
+        ("tree_s11", vec![("cone", 4095), ("polygon", 1), ("sphere", 4095)]),
+        ("mount_s6", vec![("polygon", 8192), ("sphere", 4)]),
+        ("tetra_s6", vec![("polygon", 4096)]),
+        ("teapot_s12", vec![("patch", 9120), ("polygon", 144)]),
+        ("gears_s4", vec![("polygon", 9345)]),
+        ("shells_s5", vec![("sphere", 5761)]),
+    ] {
+        let Some(scene) = open_sample(&format!("spd/{name}.nff")) else { continue };
+        let found: Vec<_> = scene.facts.stated.into_iter().collect();
+        assert_eq!(found, stated, "{name}");
+    }
+}
+
+/// A gear's two faces have 144 corners each and are concave: they must come out whole.
+#[test]
+fn gears_are_triangulated_neatly() {
+    let Some(scene) = open_sample("spd/gears_s2.nff") else { return };
+    let polygons = 8 * (2 * 142 + 144 * 2) + 2;
+    assert_eq!(scene.mesh.triangles.len(), polygons);
+    assert!(!scene.facts.warnings.iter().any(|warning| warning.contains("overlap")));
+}
