@@ -13,13 +13,14 @@ pub struct Aabb {
 }
 
 /// The padding, relative to a primitive's extent and, in [`slab`](crate::slab), to `t`:
-/// 32 times the unit roundoff 2^-24.
+/// 32 times the unit roundoff u = 2^-24.
 ///
-/// The kernels see a primitive as if each corner were moved by at most 6 roundoffs of its distance
-/// to the ray's origin, axis by axis ([`watertight`](crate::tri::watertight) has the count). Of
-/// that, what is proportional to `t` disappears in the slab test's factor, together with that
-/// test's own three roundings a side; what is left is proportional to the extent of the primitive
-/// and disappears in the padded box. The rest is reserve.
+/// A kernel sees a primitive as if each of its points, at `x` from the ray's origin on one axis and
+/// at the time `t` of the ray, were moved by 2u |x| + 4u |dx t| along that axis
+/// ([`watertight`](crate::tri::watertight), "Precision"). Within one primitive `t` varies by its
+/// extent along the dominant axis over that axis' speed, and no axis is faster. So of the hit's own
+/// `t` it is at most 6u t, which is relative to `t`, and 6u times the extent. On both sides of a slab
+/// and with the three roundings of each distance that is 18u of `t`, and 12u of the extent.
 pub(crate) const PADDING: f32 = 1.0 / (1 << 19) as f32;
 
 impl Aabb {

@@ -14,11 +14,14 @@
 //! the sheared corners, edges and corners included, and a closed mesh has no gap to pass through.
 //! Contracting the differences to fused operations would break this: they are not antisymmetric.
 //!
-//! **Precision.** The sheared corner is that of a corner moved by at most 6 roundoffs of its
-//! distance to the origin: 1 for the subtraction, 1 for the slope, 1 for the product, 1 for the
-//! second subtraction in x and y, 1 more for slope and product where the axis is shared, rounded
-//! up. `t` is the corners' distances, weighted by the edge functions. The hit's `t` is at least the
-//! entry into the triangle's own box (see the crate's documentation, "Why the answer is one").
+//! **Precision.** With x' the sheared x of a corner at (x, y, z) from the origin, and u = 2^-24:
+//! x' = x (1 + α) − (dx/dz) z (1 + β), where |α| ≤ 2u (its subtraction of the origin, the last
+//! subtraction) and |β| ≤ 4u (slope, z's subtraction of the origin, product, last subtraction). So
+//! the test is exact for corners moved by 2u |x| + 4u |z dx/dz| along x, and likewise along y. With
+//! z = t dz both terms are proportional to distances to the origin along one axis: that is what
+//! [`padded`](crate::geom::Aabb::padded) and the [slab test](crate::slab::robust) make room for.
+//! `t` is the mean of the corners' distances, weighted by the edge functions, or the entry into the
+//! triangle's own box where that is greater.
 //!
 //! **Degenerate inputs.** A triangle without area, seen from the ray, is not hit: its edge functions
 //! sum to 0. Its neighbours share its edges and take the ray.

@@ -83,8 +83,11 @@ pub trait Lanes: Copy + Send + Sync + core::fmt::Debug + Sealed + 'static {
     /// Writes as many lanes as a slice of any length takes.
     #[inline(always)]
     fn store_prefix(self, to: &mut [Self::Elem]) {
-        let n = to.len().min(Self::LANES);
-        to[..n].copy_from_slice(&self.to_array().as_ref()[..n]);
+        let n = to.len();
+        if n >= Self::LANES {
+            return self.store(to);
+        }
+        to.copy_from_slice(&self.to_array().as_ref()[..n]);
     }
 }
 
