@@ -1,7 +1,7 @@
 //! Bounding volume hierarchies.
 //!
-//! A [builder](build) makes a build tree; a [layout](layout) turns it into flat arrays; a
-//! [traversal](traverse) runs over them. [`Bvh`] is the combination that renders by default.
+//! A builder ([`build`]) makes a build tree; a [`layout`] turns it into flat arrays; a traversal
+//! ([`traverse`]) runs over them. [`Bvh`] is the combination that renders by default.
 
 pub mod build;
 pub mod layout;

@@ -18,9 +18,9 @@ pub struct Aabb {
 /// A kernel sees a primitive as if each of its points, at `x` from the ray's origin on one axis and
 /// at the time `t` of the ray, were moved by 2u |x| + 4u |dx t| along that axis
 /// ([`watertight`](crate::tri::watertight), "Precision"). Within one primitive `t` varies by its
-/// extent along the dominant axis over that axis' speed, and no axis is faster. So of the hit's own
-/// `t` it is at most 6u t, which is relative to `t`, and 6u times the extent. On both sides of a slab
-/// and with the three roundings of each distance that is 18u of `t`, and 12u of the extent.
+/// extent along the dominant axis over that axis' speed, and no axis is faster. So each side of a
+/// slab is off by at most 6u of the hit's own `t` and 6u of the extent; with the three roundings of
+/// each distance the two sides are off by 18u of `t` together. The rest is reserve.
 pub(crate) const PADDING: f32 = 1.0 / (1 << 19) as f32;
 
 impl Aabb {

@@ -2,7 +2,7 @@
 //!
 //! If any ray of the packet hits a node, all go on to its children. Source: Geimer and Müller
 //! 2003, Section 3.3; Smits 1998. Deviations: nodes behind what was already found are skipped, and
-//! the box test is the [robust](crate::slab::robust) one.
+//! the box test is [`robust`].
 
 use simd4::{SimdF32, SimdMask};
 
