@@ -12,8 +12,9 @@ const MARGIN: f32 = 1.04;
 pub fn fitted_view(bounds: &Aabb, (width, height): (u32, u32), up: Vec3, fov_y: f32) -> View {
     let z_up = up.z.abs() > up.x.abs().max(up.y.abs());
     let back = if z_up { Vec3::NEG_Y } else { Vec3::Z };
-    let target = (bounds.min() + bounds.max()) * 0.5;
-    let half = bounds.extent() * 0.5;
+    // Halved first: the sum of large coordinates would overflow.
+    let (min, max) = (bounds.min() * 0.5, bounds.max() * 0.5);
+    let (target, half) = (min + max, max - min);
     // The reach of the box along a direction.
     let reach = |direction: Vec3| direction.abs().dot(half);
     let right = up.cross(back).normalize_or(Vec3::X);
