@@ -4,13 +4,22 @@ use std::path::PathBuf;
 
 use clap::{Args as Group, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
-use rt_render::{AccelKind, Exec, Integrator, Level, LevelError, PacketSize};
+use rt_render::{AccelKind, Exec, Integrator, Level, PacketSize};
 use rt_scene::Light;
+
+use crate::error::Error;
+
+/// What every command takes as a scene.
+const SCENE: &str = "An OBJ or NFF file, or spd:NAME[:SIZE] for a procedural scene: spd:balls";
 
 /// A ray tracer that gives the same bits on every machine.
 #[derive(Parser)]
 #[command(name = "rt", version, max_term_width = 100, disable_help_subcommand = true)]
+#[command(after_help = "Begin with:\n  \
+    rt render spd:balls -o balls.png\n\n\
+    Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted")]
 pub(crate) struct Args {
+    /// What to do.
     #[command(subcommand)]
     pub(crate) command: Command,
 }
@@ -25,16 +34,18 @@ pub(crate) enum Command {
 
 /// Render one picture of a scene.
 ///
-/// SCENE is an OBJ or NFF file, or spd:NAME[:SIZE] for a procedural scene (spd:balls). Without
-/// further flags the camera is the scene's own, or fitted to it; the lights are the scene's own, or
-/// one at the eye; every core works at the best level that the CPU has.
+/// Without further flags the camera is the scene's own, or fitted to it; the lights are the scene's
+/// own, or one at the eye; every core works at the best level that the CPU has. Where nothing of a
+/// scene can be seen, the picture shows the background.
+///
+/// A file that is there already is replaced when the picture is complete, and not before.
 #[derive(Group)]
 #[command(after_help = "Examples:\n  \
     rt render bunny.obj -o bunny.png\n  \
     rt render spd:balls -s 1024x1024 -o balls.png\n  \
     rt render room.obj --eye 1,2,5 --target 0,1,0 --light 0,3,0 -o room.png")]
 pub(crate) struct RenderArgs {
-    /// The scene.
+    #[arg(help = SCENE)]
     pub(crate) scene: String,
     /// The PNG file to write; - for standard output.
     #[arg(short, long, value_name = "FILE")]
@@ -53,7 +64,7 @@ pub(crate) struct RenderArgs {
     /// How progress is shown: auto is a bar on a terminal, lines elsewhere and under CI.
     #[arg(long, value_enum, value_name = "HOW", default_value_t, help_heading = "Talk")]
     pub(crate) progress: ProgressKind,
-    /// Write counts and times as JSON; - for standard output.
+    /// Write counts and times to a .json file; - for standard output.
     #[arg(long, value_name = "FILE", help_heading = "Talk")]
     pub(crate) stats_json: Option<PathBuf>,
 }
@@ -65,16 +76,16 @@ pub(crate) struct PictureArgs {
     /// Width and height in pixels [default: the scene's, or 512x512].
     #[arg(short, long, value_name = "WxH", value_parser = size)]
     pub(crate) size: Option<(u32, u32)>,
-    /// Where the camera is.
+    /// Where the camera is [default: the scene's, or such that all is in the picture].
     #[arg(long, value_name = "X,Y,Z", value_parser = vec3, allow_hyphen_values = true)]
     pub(crate) eye: Option<Vec3>,
-    /// What the camera looks at.
+    /// What the camera looks at [default: the scene's, or the middle of its bounds].
     #[arg(long, value_name = "X,Y,Z", value_parser = vec3, allow_hyphen_values = true)]
     pub(crate) target: Option<Vec3>,
-    /// What is up in the picture.
+    /// What is up in the picture [default: the scene's, or 0,1,0].
     #[arg(long, value_name = "X,Y,Z", value_parser = vec3, allow_hyphen_values = true)]
     pub(crate) up: Option<Vec3>,
-    /// The vertical angle of view.
+    /// The vertical angle of view [default: the scene's, or 40].
     #[arg(long, value_name = "DEGREES", value_parser = angle)]
     pub(crate) fov: Option<f32>,
 }
@@ -83,11 +94,12 @@ pub(crate) struct PictureArgs {
 #[derive(Group)]
 #[command(next_help_heading = "Shading")]
 pub(crate) struct ShadingArgs {
-    /// A point light, white unless a colour follows; instead of the scene's. May be repeated.
+    /// A point light, white unless a colour follows; may be repeated [default: the scene's, or one
+    /// at the eye].
     #[arg(long, value_name = "X,Y,Z[,R,G,B]", value_parser = light, allow_hyphen_values = true)]
     pub(crate) light: Vec<Light>,
     /// The linear colour behind the scene [default: the scene's, or 0.05,0.05,0.06].
-    #[arg(long, value_name = "R,G,B", value_parser = vec3)]
+    #[arg(long, value_name = "R,G,B", value_parser = color, allow_hyphen_values = true)]
     pub(crate) background: Option<Vec3>,
     /// What is computed of a hit.
     #[arg(long, value_enum, value_name = "KIND", default_value_t)]
@@ -104,8 +116,8 @@ pub(crate) struct ShadingArgs {
 #[derive(Group)]
 #[command(next_help_heading = "Machine (the picture is the same for all of these)")]
 pub(crate) struct MachineArgs {
-    /// The instructions to use: auto is the best level of this CPU, or what the environment
-    /// variable SIMD4_LEVEL says.
+    /// The instructions to use: auto is the best level of this CPU (rt info lists those it has), or
+    /// what the environment variable SIMD4_LEVEL says.
     #[arg(long, value_name = "LEVEL", default_value = "auto",
           value_parser = ["auto", "scalar", "sse2", "sse4.1", "avx2", "neon"])]
     isa: String,
@@ -123,10 +135,10 @@ pub(crate) struct MachineArgs {
 
 impl MachineArgs {
     /// The level and packet size.
-    pub(crate) fn exec(&self) -> Result<Exec, LevelError> {
+    pub(crate) fn exec(&self) -> Result<Exec, Error> {
         let level = match &*self.isa {
-            "auto" => Level::best()?,
-            name => Level::named(name)?,
+            "auto" => best_level()?,
+            name => named_level(name, format!("--isa {name}"))?,
         };
         let packet = match &*self.packet {
             "1" => PacketSize::Single,
@@ -154,26 +166,45 @@ impl MachineArgs {
     }
 }
 
+/// The best level of this CPU, or what the environment says.
+pub(crate) fn best_level() -> Result<Level, Error> {
+    match std::env::var_os("SIMD4_LEVEL") {
+        Some(name) => {
+            let name = name.to_string_lossy();
+            named_level(&name, format!("SIMD4_LEVEL={name}"))
+        }
+        None => Level::best().map_err(|source| Error::Level { asked: "auto".into(), source }),
+    }
+}
+
+fn named_level(name: &str, asked: String) -> Result<Level, Error> {
+    Level::named(name).map_err(|source| Error::Level { asked, source })
+}
+
 /// Write a procedural scene to a file.
 ///
 /// The extension of the file tells the format: .nff, or .obj for scenes of polygons alone. Without
 /// a file, NFF goes to standard output.
 #[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt gen balls -o balls.nff\n  \
+    rt gen balls --size 2 | less")]
 pub(crate) struct GenArgs {
-    /// The scene's name, for example balls.
+    #[arg(help = names())]
     pub(crate) name: String,
     /// The scene's size factor [default: the scene's own].
     #[arg(long, value_name = "N")]
     pub(crate) size: Option<u32>,
-    /// The file to write.
+    /// The .nff or .obj file to write; - for standard output [default: -].
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }
 
 /// Tell what is in a scene, or, without one, what this machine has.
 #[derive(Group)]
+#[command(after_help = "Examples:\n  rt info bunny.obj\n  rt info --json")]
 pub(crate) struct InfoArgs {
-    /// The scene.
+    #[arg(help = SCENE)]
     pub(crate) scene: Option<String>,
     /// Answer as JSON.
     #[arg(long)]
@@ -185,9 +216,11 @@ pub(crate) struct InfoArgs {
 /// One thread; interleaved rounds; the median of each. The first row is the yardstick: one ray at a
 /// time in plain scalar code on the same BVH. The second is the four-lane code on the scalar level.
 #[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt bench bunny.obj spd:balls\n  \
+    rt bench spd:balls --json balls.json")]
 pub(crate) struct BenchArgs {
-    /// The scenes.
-    #[arg(required = true)]
+    #[arg(value_name = "SCENE", required = true, help = SCENE)]
     pub(crate) scenes: Vec<String>,
     /// Width and height in pixels.
     #[arg(short, long, value_name = "WxH", value_parser = size, default_value = "512x512")]
@@ -195,7 +228,7 @@ pub(crate) struct BenchArgs {
     /// How often everything is timed.
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) rounds: u16,
-    /// Write the table as JSON; - for standard output.
+    /// Write the rows to a .json file too; - for standard output, where no table is then.
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
 }
@@ -239,7 +272,7 @@ pub(crate) enum ProgressKind {
     /// A bar on a terminal, lines elsewhere.
     #[default]
     Auto,
-    /// A bar with elapsed and remaining time.
+    /// A bar with elapsed and remaining time, if this is a terminal.
     Bar,
     /// A line now and then.
     Lines,
@@ -247,6 +280,16 @@ pub(crate) enum ProgressKind {
     Json,
     /// Nothing.
     None,
+}
+
+/// The procedural scenes, for the help.
+fn names() -> String {
+    let scenes = rt_scene::spd::PROCEDURES.iter().map(|scene| {
+        let (least, greatest) = scene.sizes;
+        let default = scene.default_size;
+        format!("{} ({}; sizes {least} to {greatest}, else {default})", scene.name, scene.about)
+    });
+    format!("The scene's name: {}", scenes.collect::<Vec<_>>().join(", "))
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {
@@ -270,6 +313,13 @@ fn vec3(text: &str) -> Result<Vec3, String> {
     match numbers(text)?[..] {
         [x, y, z] => Ok(Vec3::new(x, y, z)),
         _ => Err("expected three numbers with commas between them".into()),
+    }
+}
+
+fn color(text: &str) -> Result<Vec3, String> {
+    match vec3(text)? {
+        color if color.min_element() < 0.0 => Err("a colour has no negative parts".into()),
+        color => Ok(color),
     }
 }
 
@@ -299,6 +349,14 @@ mod tests {
     }
 
     #[test]
+    fn every_level_of_this_machine_can_be_asked_for() {
+        for level in Level::available() {
+            let args = ["rt", "render", "a.obj", "-o", "a.png", "--isa", level.name()];
+            assert!(Args::try_parse_from(args).is_ok(), "{level}");
+        }
+    }
+
+    #[test]
     fn values_are_read_whole_or_refused() {
         assert_eq!(size("640x480"), Ok((640, 480)));
         for bad in ["640", "0x5", "5x0", "x", "-1x5", "5x5x5", "4294967296x1"] {
@@ -311,6 +369,7 @@ mod tests {
         assert_eq!(light("1,2,3").unwrap().color, Vec3::ONE);
         assert_eq!(light("1,2,3,4,5,6").unwrap().color, Vec3::new(4.0, 5.0, 6.0));
         assert!(light("1,2,3,4").is_err());
+        assert!(color("0,-1,0").is_err() && color("0,0.5,9").is_ok());
         assert!(angle("0").is_err() && angle("180").is_err() && angle("45").is_ok());
     }
 }

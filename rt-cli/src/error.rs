@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-/// A command failed: exit code 1.
+/// A command failed: exit code 1. Its text is complete: it needs no source beside it.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Error {
     /// The scene cannot be read.
@@ -13,10 +13,15 @@ pub(crate) enum Error {
     #[error(transparent)]
     Render(#[from] rt_render::RenderError),
     /// The level is not to be had.
-    #[error(transparent)]
-    Level(#[from] rt_render::LevelError),
+    #[error("{asked}: {source}")]
+    Level {
+        /// Where it was asked for.
+        asked: String,
+        /// Why not, and what there is.
+        source: rt_render::LevelError,
+    },
     /// A file cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}: {}", path.display(), reason(source))]
     Write {
         /// The file.
         path: PathBuf,
@@ -27,13 +32,16 @@ pub(crate) enum Error {
     #[error("cannot encode the picture: {0}")]
     Encode(#[from] png::EncodingError),
     /// The extension of an output file is of no format that is written.
-    #[error("{}: the format is told by the extension, one of {known}", path.display())]
+    #[error("cannot write {}: give it the extension .{}", path.display(), known.join(" or ."))]
     OutputFormat {
         /// The file.
         path: PathBuf,
         /// The extensions.
-        known: &'static str,
+        known: &'static [&'static str],
     },
+    /// Two outputs would go to one place.
+    #[error("{}: picture and statistics cannot go to the same place", .0.display())]
+    SameOutput(PathBuf),
     /// A way to trace gave other hits than another. This is a fault of the program.
     #[error("{scene}: {differing} hits differ between {way} and the first row: please report this")]
     Differ {
@@ -44,4 +52,17 @@ pub(crate) enum Error {
         /// Where.
         way: String,
     },
+}
+
+impl Error {
+    /// Whether its text begins with the place that it is about.
+    pub(crate) fn has_place(&self) -> bool {
+        matches!(self, Error::Scene(rt_scene::Error::Invalid(_)))
+    }
+}
+
+/// The system's words without its error number.
+pub(crate) fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split_once(" (os error ").map_or(text.clone(), |(words, _)| words.to_owned())
 }

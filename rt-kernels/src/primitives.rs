@@ -79,6 +79,8 @@ pub struct TriangleRecord {
     _pad_c: u32,
 }
 
+const _: () = assert!(size_of::<TriangleRecord>() == 48);
+
 impl TriangleRecord {
     /// The own box of the triangle, the same bits as [`Triangle::own_box`]: all axes at once.
     #[inline(always)]

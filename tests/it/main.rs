@@ -1,1 +1,10 @@
-fn main() {}
+//! Tests that span the crates.
+
+mod accelerators;
+mod build;
+mod padding;
+mod pictures;
+mod range;
+mod sphere;
+mod triangle;
+mod watertight;

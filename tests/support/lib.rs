@@ -1,1 +1,27 @@
+//! What the tests share: meshes and scenes, rays, ways to run them, and oracles.
+//!
+//! An oracle is separate, dumb and short, and shares no code with what it judges.
 
+pub mod aim;
+pub mod hash;
+pub mod mesh;
+pub mod oracle;
+pub mod random;
+pub mod scenes;
+pub mod strategies;
+pub mod trace;
+
+/// The number of cases of a property: `PROPTEST_CASES`, or 256.
+///
+/// # Panics
+/// If the variable is there and is no number.
+pub fn cases() -> u32 {
+    let number = |cases: String| cases.parse().expect("PROPTEST_CASES is a number");
+    std::env::var("PROPTEST_CASES").map_or(256, number)
+}
+
+/// `n`, scaled by [`cases`]: the one setting by which all tests grow and shrink, so that they stay
+/// quick under emulation.
+pub fn rays(n: usize) -> usize {
+    (n as u64 * u64::from(cases())).div_ceil(256) as usize
+}

@@ -1,5 +1,7 @@
 //! `rt bench`.
 
+use std::path::Path;
+
 use glam::Vec3;
 use rt_render::measure::{self, Row};
 use rt_render::{AccelKind, Exec, Integrator, Job, Level, PacketSize, World};
@@ -9,19 +11,22 @@ use serde_json::{Value, json};
 use super::render::default_view;
 use crate::args::BenchArgs;
 use crate::error::Error;
-use crate::output::{self, Output};
+use crate::output;
 
+/// Times every scene in turn; what is done is shown at once.
 pub(crate) fn run(args: &BenchArgs) -> Result<(), Error> {
-    let json = args.json.as_deref().map(Output::open).transpose()?;
-    let scalar = Level::named("scalar")?;
-    let mut ways = vec![Exec { level: scalar, packet: PacketSize::Single }];
+    let json = args.json.as_deref().map(output::open_json).transpose()?;
+    let table = args.json.as_deref() != Some(Path::new("-"));
+    let show = |text: &str| if table { output::to_stdout(text.as_bytes()) } else { Ok(()) };
+    let mut ways = vec![Exec { level: scalar(), packet: PacketSize::Single }];
     ways.extend(Level::available().map(Exec::at));
 
-    let mut rows = Vec::new();
-    let mut table = format!(
-        "{:<24}{:<10}{:>7}{:>10}{:>9}{:>9}{:>12}{:>12}\n",
+    let width = args.scenes.iter().map(|name| name_width(name)).max().unwrap_or(0);
+    show(&format!(
+        "{:<width$} {:<7}{:>7}{:>9}{:>8}{:>10}{:>11}{:>11}\n",
         "scene", "level", "packet", "Mray/s", "× one", "× scalar", "nodes/ray", "tests/ray"
-    );
+    ))?;
+    let mut rows = Vec::new();
     for name in &args.scenes {
         let mut scene = rt_scene::open(name)?;
         let view = scene.view.take();
@@ -35,15 +40,25 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Error> {
                 let way = format!("{} × {}", row.exec.level, row.exec.lanes());
                 return Err(Error::Differ { scene: scene_name, differing: row.differing, way });
             }
-            table += &line(&scene_name, row, &measured);
+            show(&format!("{scene_name:<width$} {}\n", line(row, &measured)))?;
             rows.push(row_json(&scene_name, &world, row));
         }
     }
     match json {
-        Some(json) => json.write(output::json(&json!({ "rows": rows })).as_bytes())?,
-        None => return output::to_stdout(table.as_bytes()),
+        Some(json) => json.write(output::json(&json!({ "rows": rows })).as_bytes()),
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// The level that every CPU has.
+fn scalar() -> Level {
+    Level::available().next().expect("scalar is always there")
+}
+
+/// About how long the name of a scene will be once it is opened.
+fn name_width(name: &str) -> usize {
+    let size = if name.starts_with("spd:") { ":10".len() } else { 0 };
+    Path::new(name).file_name().map_or(0, |base| base.to_string_lossy().chars().count()) + size
 }
 
 /// The primary rays of a picture; of the rest nothing matters.
@@ -66,11 +81,11 @@ fn mrays_per_s(row: &Row) -> f64 {
 }
 
 /// A row of the table; `measured` begins with one ray at a time and the scalar level.
-fn line(scene: &str, row: &Row, measured: &[Row]) -> String {
+fn line(row: &Row, measured: &[Row]) -> String {
     let times = |other: &Row| other.time.as_secs_f64() / row.time.as_secs_f64();
     let per_ray = |count: u64| count as f64 / row.rays as f64;
     format!(
-        "{scene:<24}{:<10}{:>7}{:>10.2}{:>9.2}{:>9.2}{:>12.1}{:>12.1}\n",
+        "{:<7}{:>7}{:>9.2}{:>8.2}{:>10.2}{:>11.1}{:>11.1}",
         row.exec.level,
         row.exec.lanes(),
         mrays_per_s(row),

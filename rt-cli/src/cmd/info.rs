@@ -7,10 +7,11 @@ use rt_render::Level;
 use rt_scene::Scene;
 use serde_json::{Value, json};
 
-use crate::args::InfoArgs;
+use crate::args::{InfoArgs, best_level};
 use crate::error::Error;
-use crate::output;
+use crate::{output, report};
 
+/// Prints the facts of a scene or of the machine.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Error> {
     let text = match &args.scene {
         Some(name) => {
@@ -30,7 +31,7 @@ fn machine_json() -> Result<Value, Error> {
     Ok(json!({
         "arch": std::env::consts::ARCH,
         "levels": levels,
-        "default_level": Level::best()?.name(),
+        "default_level": best_level()?.name(),
     }))
 }
 
@@ -71,7 +72,7 @@ fn scene_text(scene: &Scene) -> String {
         let _ = writeln!(text, "  {what:<12}{value}");
     };
     for (kind, count) in &scene.facts.stated {
-        line(&format!("{kind}s"), count.to_string());
+        line(&report::plural(kind), count.to_string());
     }
     line("triangles", scene.mesh.triangles.len().to_string());
     line("vertices", scene.mesh.positions.len().to_string());
@@ -82,7 +83,10 @@ fn scene_text(scene: &Scene) -> String {
         line("extent", (max - min).to_string());
     }
     if let Some(view) = &scene.view {
-        line("view", crate::report::flags(view));
+        line("view", report::flags(view));
+        if let Some((width, height)) = view.size {
+            line("size", format!("{width}x{height}"));
+        }
     }
     for skipped in &scene.facts.skipped {
         line("skipped", format!("{} × {}: {}", skipped.count, skipped.what, skipped.why));

@@ -16,12 +16,18 @@ const FOV: f32 = 40.0;
 /// The linear colour behind scenes that state none.
 const BACKGROUND: Vec3 = Vec3::new(0.05, 0.05, 0.06);
 
+/// Makes one picture. Triangles without area can't be seen, but a scene that has no others still
+/// has a picture: that of its background, with the reader's warning.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
     let exec = args.machine.exec()?;
     let threads = args.machine.threads();
     // Before any work: what cannot be written is not worth rendering.
+    output::format(&args.output, &["png"])?;
     let output = Output::open(&args.output)?;
-    let stats = args.stats_json.as_deref().map(Output::open).transpose()?;
+    let stats = args.stats_json.as_deref().map(output::open_json).transpose()?;
+    if stats.as_ref().is_some_and(|stats| stats.is_same(&output)) {
+        return Err(Error::SameOutput(args.output.clone()));
+    }
 
     let mut scene = rt_scene::open(&args.scene)?;
     if !args.quiet {

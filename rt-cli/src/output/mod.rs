@@ -3,8 +3,19 @@
 mod file;
 mod picture;
 
-pub(crate) use file::{Output, to_stdout};
+pub(crate) use file::{Output, format, to_stdout};
 pub(crate) use picture::png;
+
+use std::path::Path;
+
+use crate::error::Error;
+
+/// A place for JSON. It has the extension of JSON if any: who takes `--json` for a flag without a
+/// value does not lose the scene that follows.
+pub(crate) fn open_json(path: &Path) -> Result<Output, Error> {
+    format(path, &["json"])?;
+    Output::open(path)
+}
 
 /// JSON for people and programs: indented, with a line feed at its end.
 pub(crate) fn json(value: &serde_json::Value) -> String {

@@ -1,23 +1,15 @@
 //! What was done, in a line and in JSON.
 
+mod words;
+
+pub(crate) use words::{count, flags, number_of, plural, time};
+
 use std::path::Path;
 use std::time::Duration;
 
 use rt_render::{Job, KindReport, Report, World};
-use rt_scene::{Scene, View};
+use rt_scene::Scene;
 use serde_json::{Value, json};
-
-/// The flags that give a view.
-pub(crate) fn flags(view: &View) -> String {
-    let list = |v: glam::Vec3| format!("{},{},{}", v.x, v.y, v.z);
-    format!(
-        "--eye {} --target {} --up {} --fov {}",
-        list(view.eye),
-        list(view.target),
-        list(view.up),
-        view.fov_y
-    )
-}
 
 /// The primitives that a file states, by kind.
 pub(crate) fn stated(scene: &Scene) -> Value {
@@ -37,28 +29,28 @@ impl Rendered<'_> {
     /// The closing line.
     pub(crate) fn line(&self) -> String {
         let (world, made) = (self.world, &self.made);
-        let mut primitives = vec![format!("{} triangles", world.triangles())];
-        if world.spheres() > 0 {
-            primitives.push(format!("{} spheres", world.spheres()));
-        }
         let kinds =
             [("primary", made.primary), ("shadow", made.shadow), ("reflection", made.reflection)];
         let speeds: Vec<_> = kinds
             .into_iter()
             .filter_map(|(kind, report)| Some(format!("{kind} {:.1}", report.mrays_per_s()?)))
             .collect();
+        let output = match self.output.display().to_string() {
+            stdout if stdout == "-" => "standard output".to_owned(),
+            file => file,
+        };
         format!(
-            "{}: {}x{}, {}; {} built in {}, rendered in {}; Mray/s: {}; {}, {} threads",
-            self.output.display(),
+            "{output}: {}x{}, {}; {} built in {}, rendered in {} (tracing {}); Mray/s: {}; {}, {}",
             self.job.size.0,
             self.job.size.1,
-            primitives.join(", "),
+            number_of(&[("triangle", world.triangles()), ("sphere", world.spheres())]),
             world.accel_kind().name(),
             time(world.build_time()),
             time(made.total),
+            time(made.all().time),
             speeds.join(", "),
             self.job.exec.level,
-            self.job.threads,
+            count(self.job.threads, "thread"),
         )
     }
 
@@ -103,13 +95,5 @@ impl Rendered<'_> {
             "triangle_tests": made.stats.triangle_tests,
             "sphere_tests": made.stats.sphere_tests,
         })
-    }
-}
-
-/// A time that a person can read.
-fn time(time: Duration) -> String {
-    match time.as_secs_f64() {
-        seconds if seconds < 1.0 => format!("{:.0} ms", seconds * 1e3),
-        seconds => format!("{seconds:.2} s"),
     }
 }

@@ -1,28 +1,32 @@
-//! Talk, all of it to stderr.
-#![allow(clippy::print_stderr, reason = "this is the one place that talks")]
+//! Talk, all of it to stderr. Nobody may be listening: that is no reason to stop.
 
 mod progress;
 
 pub(crate) use progress::Progress;
 
+use std::io::{Write, stderr};
+
 use rt_scene::Scene;
+
+use crate::error::Error;
 
 /// A line for the user.
 pub(crate) fn say(line: &str) {
-    eprintln!("{line}");
+    let _ = writeln!(stderr(), "{line}");
 }
 
-/// What went wrong.
-pub(crate) fn error(error: &crate::error::Error) {
-    eprintln!("error: {error}");
+/// What went wrong. What has a place begins with it, as editors expect.
+pub(crate) fn error(error: &Error) {
+    let lead = if error.has_place() { "" } else { "error: " };
+    say(&format!("{lead}{error}"));
 }
 
 /// What the reader of a scene left out and warns of.
 pub(crate) fn warnings(scene: &Scene) {
     for skipped in &scene.facts.skipped {
-        eprintln!("skipped: {} × {}: {}", skipped.count, skipped.what, skipped.why);
+        say(&format!("skipped: {} × {}: {}", skipped.count, skipped.what, skipped.why));
     }
     for warning in &scene.facts.warnings {
-        eprintln!("warning: {warning}");
+        say(&format!("warning: {warning}"));
     }
 }

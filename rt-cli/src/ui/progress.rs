@@ -12,6 +12,7 @@ use crate::args::ProgressKind;
 /// Shows the progress of a picture, in the way that was asked for.
 pub(crate) enum Progress {
     None,
+    /// Shows nothing where stderr is no terminal.
     Bar(ProgressBar),
     /// When the last line was written.
     Lines(Mutex<Instant>),
@@ -22,6 +23,7 @@ pub(crate) enum Progress {
 const PAUSE: Duration = Duration::from_secs(2);
 
 impl Progress {
+    /// For a picture that is about to be made.
     pub(crate) fn new(kind: ProgressKind, quiet: bool) -> Progress {
         let terminal = stderr().is_terminal() && std::env::var_os("CI").is_none();
         match kind {
@@ -68,7 +70,7 @@ impl rt_render::Progress for Progress {
             }
             Progress::Lines(last) => {
                 if due(last, false) {
-                    say(&format!("{} %", done * 100 / total));
+                    say(&format!("rendered {} %", done * 100 / total));
                 }
             }
             Progress::Json(last) => {

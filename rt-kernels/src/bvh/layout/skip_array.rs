@@ -21,6 +21,8 @@ pub struct Node {
     leaf: u32,
 }
 
+const _: () = assert!(size_of::<Node>() == 32, "two nodes a cache line");
+
 /// The greatest number of primitives in a leaf.
 pub(crate) const MAX_SLOTS: usize = 15;
 

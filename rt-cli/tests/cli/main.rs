@@ -1,0 +1,18 @@
+//! The program `rt` as its users meet it: files, flags, messages, exit codes.
+//!
+//! `RT_RUNNER=qemu-aarch64 cargo test -p rt-cli --target …` runs it under an emulator.
+
+mod bad_input;
+mod bench;
+mod flags;
+mod generate;
+mod info;
+mod machine;
+#[cfg(unix)]
+mod output;
+mod picture;
+mod stats;
+mod support;
+mod talk;
+#[cfg(unix)]
+mod unusual_files;

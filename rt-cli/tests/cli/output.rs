@@ -1,0 +1,260 @@
+//! Where output goes: whole or not at all, and nothing beside it.
+
+use std::fs::{self, Permissions};
+use std::io::{self, BufRead, BufReader};
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::thread;
+
+use crate::support::{Picture, Run, Scratch, TRIANGLE, argv, run, skipped};
+
+fn triangle() -> Scratch {
+    let scratch = Scratch::new();
+    scratch.file("a.obj", TRIANGLE);
+    scratch
+}
+
+#[track_caller]
+fn render_to(scratch: &Scratch, output: &str) -> Run {
+    scratch.rt(&["render", "-q", "a.obj", "-s", "8x8", "-o", output])
+}
+
+/// Runs `rt` from a shell that does something first.
+#[track_caller]
+fn after(scratch: &Scratch, first: &str, args: &[&str]) -> Run {
+    let shell = ["sh", "-c", &format!("{first}; exec \"$@\""), "sh"].map(Into::into);
+    run(scratch.command(&[&shell[..], &argv()].concat()).args(args))
+}
+
+#[track_caller]
+fn mode(path: &Path) -> u32 {
+    fs::metadata(path).expect("the file is there").permissions().mode() & 0o7777
+}
+
+#[test]
+fn places_that_cannot_be_written_to_are_told_before_any_work() {
+    let scratch = triangle();
+    fs::create_dir(scratch.path("folder")).unwrap();
+    symlink("folder", scratch.path("link")).unwrap();
+    symlink("loop", scratch.path("loop")).unwrap();
+    let before = scratch.names();
+    for (output, message) in [
+        ("no/a.png", "cannot write no/a.png: there is no folder no"),
+        ("no/", "cannot write no/: there is no folder no/"),
+        ("folder", "cannot write folder: it is a directory"),
+        ("folder/", "cannot write folder/: it is a directory"),
+        (".", "cannot write .: it is a directory"),
+        ("link", "cannot write link: it is a directory"),
+        ("loop", "cannot write loop: "),
+        ("a.obj/b.png", "cannot write a.obj/b.png: Not a directory"),
+        ("a.jpg", "cannot write a.jpg: give it the extension .png"),
+        ("a.obj", "cannot write a.obj: give it the extension .png"),
+    ] {
+        // The scene is not even looked at.
+        for scene in ["a.obj", "missing.obj"] {
+            let run = scratch.rt(&["render", scene, "-o", output]).exits(1);
+            assert!(run.stderr.starts_with(&format!("error: {message}")), "{}", run.stderr);
+            assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+        }
+        assert_eq!(scratch.names(), before);
+    }
+    assert_eq!(scratch.bytes("a.obj"), TRIANGLE.as_bytes());
+}
+
+#[test]
+fn an_empty_name_is_wrong_usage() {
+    render_to(&triangle(), "").exits(2);
+}
+
+#[test]
+fn picture_and_statistics_do_not_overwrite_each_other() {
+    let scratch = triangle();
+    symlink("a", scratch.path("b.json")).unwrap();
+    for (picture, stats) in [("-", "-"), ("a", "a"), ("a", "./a"), ("a", "b.json")] {
+        let args = ["render", "a.obj", "-s", "8x8", "-o", picture, "--stats-json", stats];
+        let run = scratch.rt(&args).exits(1);
+        assert!(run.stderr.contains("cannot go to the same place"), "{}", run.stderr);
+        assert!(run.stdout.is_empty());
+    }
+    assert_eq!(scratch.names(), ["a.obj", "b.json"]);
+    let args = ["render", "a.obj", "-s", "8x8", "-o", "/dev/null", "--stats-json", "/dev/null"];
+    scratch.rt(&args).exits(0);
+}
+
+#[test]
+fn devices_and_pipes_are_written_to_and_stay() {
+    let scratch = triangle();
+    render_to(&scratch, "/dev/null").exits(0);
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+
+    let fifo = scratch.path("pipe.png");
+    assert!(Command::new("mkfifo").arg(&fifo).status().unwrap().success());
+    let reader = thread::spawn({
+        let fifo = fifo.clone();
+        move || fs::read(fifo).unwrap()
+    });
+    render_to(&scratch, "pipe.png").exits(0);
+    assert_eq!(Picture::decode(&reader.join().unwrap()).size, (8, 8));
+    assert!(!fs::metadata(&fifo).unwrap().is_file());
+    assert_eq!(scratch.names(), ["a.obj", "pipe.png"]);
+
+    let run = render_to(&scratch, "/dev/stdout").exits(0);
+    assert_eq!(Picture::decode(&run.stdout).size, (8, 8));
+}
+
+#[test]
+fn links_stay_and_what_they_name_is_written() {
+    let scratch = triangle();
+    fs::create_dir(scratch.path("folder")).unwrap();
+    symlink("folder/there.png", scratch.path("link.png")).unwrap();
+    symlink("link.png", scratch.path("second.png")).unwrap();
+    // At first there is nothing at its end.
+    for name in ["second.png", "link.png"] {
+        render_to(&scratch, name).exits(0);
+        assert!(fs::symlink_metadata(scratch.path("link.png")).unwrap().is_symlink());
+        assert!(fs::symlink_metadata(scratch.path("second.png")).unwrap().is_symlink());
+        assert!(fs::symlink_metadata(scratch.path("folder/there.png")).unwrap().is_file());
+        assert_eq!(Picture::open(&scratch.path("link.png")).size, (8, 8));
+        fs::write(scratch.path("folder/there.png"), "something longer than nothing").unwrap();
+    }
+    assert_eq!(fs::read_dir(scratch.path("folder")).unwrap().count(), 1);
+    assert_eq!(scratch.names(), ["a.obj", "folder", "link.png", "second.png"]);
+}
+
+#[test]
+fn a_read_only_file_stays() {
+    let scratch = triangle();
+    scratch.file("a.png", "precious");
+    fs::set_permissions(scratch.path("a.png"), Permissions::from_mode(0o444)).unwrap();
+    let run = render_to(&scratch, "a.png").exits(1);
+    assert_eq!(run.stderr, "error: cannot write a.png: it is read-only\n");
+    assert_eq!(scratch.bytes("a.png"), b"precious");
+}
+
+#[test]
+fn a_folder_that_takes_no_files_is_told() {
+    let scratch = triangle();
+    let folder = scratch.path("folder");
+    fs::create_dir(&folder).unwrap();
+    fs::set_permissions(&folder, Permissions::from_mode(0o555)).unwrap();
+    // Nothing is forbidden to root, but /proc takes files from nobody.
+    let privileged = fs::write(folder.join("probe"), "").is_ok();
+    let folder = if privileged { "/proc/self" } else { "folder" };
+    let run = render_to(&scratch, &format!("{folder}/a.png")).exits(1);
+    let message = format!("cannot write {folder}/a.png: no file can be made in ");
+    assert!(run.stderr.starts_with(&format!("error: {message}")), "{}", run.stderr);
+    assert!(!run.stderr.contains("os error") && !run.stderr.contains("tmp"), "{}", run.stderr);
+}
+
+#[test]
+fn new_files_follow_the_umask_and_old_ones_keep_their_mode() {
+    let scratch = triangle();
+    let args = ["render", "-q", "a.obj", "-s", "8x8", "-o", "a.png"];
+    for (umask, expected) in [("022", 0o644), ("077", 0o600), ("002", 0o664), ("000", 0o666)] {
+        after(&scratch, &format!("umask {umask}"), &args).exits(0);
+        assert_eq!(mode(&scratch.path("a.png")), expected, "umask {umask}");
+        fs::remove_file(scratch.path("a.png")).unwrap();
+    }
+    for kept in [0o600, 0o664, 0o646, 0o755] {
+        scratch.file("a.png", "old");
+        fs::set_permissions(scratch.path("a.png"), Permissions::from_mode(kept)).unwrap();
+        after(&scratch, "umask 022", &args).exits(0);
+        assert_eq!(mode(&scratch.path("a.png")), kept);
+        assert_eq!(Picture::open(&scratch.path("a.png")).size, (8, 8));
+    }
+}
+
+#[test]
+fn a_full_disk_leaves_what_was_there() {
+    let scratch = triangle();
+    fs::write(scratch.path("a.png"), "precious").unwrap();
+    for args in [
+        &["render", "-q", "spd:balls:1", "-s", "99x99", "-o", "a.png"][..],
+        &["render", "-q", "spd:balls:1", "-s", "99x99", "-o", "new.png"],
+        &["gen", "balls", "--size", "2", "-o", "new.nff"],
+    ] {
+        // No file may grow beyond half a kilobyte.
+        let run = after(&scratch, "trap '' XFSZ; ulimit -f 1", args).exits(1);
+        let message = format!("error: cannot write {}: File too large\n", args.last().unwrap());
+        assert_eq!(run.stderr, message);
+        assert_eq!(scratch.names(), ["a.obj", "a.png"]);
+        assert_eq!(scratch.bytes("a.png"), b"precious");
+    }
+    let run = render_to(&scratch, "/dev/full").exits(1);
+    assert_eq!(run.stderr, "error: cannot write /dev/full: No space left on device\n");
+    let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let run = run_with(&scratch, &["info"], full().into(), Stdio::piped()).exits(1);
+    assert_eq!(run.stderr, "error: cannot write standard output: No space left on device\n");
+    // Talk that cannot be written is no reason to stop.
+    let args = ["render", "a.obj", "-s", "8x8", "-o", "b.png"];
+    run_with(&scratch, &args, Stdio::piped(), full().into()).exits(0);
+    assert_eq!(Picture::open(&scratch.path("b.png")).size, (8, 8));
+}
+
+#[track_caller]
+fn run_with(scratch: &Scratch, args: &[&str], stdout: Stdio, stderr: Stdio) -> Run {
+    run(scratch.rt_command(args).stdout(stdout).stderr(stderr))
+}
+
+#[test]
+fn nobody_has_to_listen() {
+    let scratch = triangle();
+    let closed = || {
+        let (reader, writer) = io::pipe().unwrap();
+        drop(reader);
+        Stdio::from(writer)
+    };
+    for args in [
+        &["info", "a.obj"][..],
+        &["info", "--json"],
+        &["gen", "balls"],
+        &["render", "a.obj", "-s", "300x300", "-o", "-"],
+        &["render", "a.obj", "-s", "8x8", "-o", "a.png", "--stats-json", "-"],
+        &["bench", "spd:balls:0", "-s", "8x8", "--rounds", "1"],
+        &["render", "--help"],
+    ] {
+        run_with(&scratch, args, closed(), Stdio::piped()).exits(0);
+    }
+    fs::remove_file(scratch.path("a.png")).unwrap();
+    let args = ["render", "a.obj", "-s", "8x8", "-o", "a.png"];
+    run_with(&scratch, &args, Stdio::piped(), closed()).exits(0);
+    assert_eq!(Picture::open(&scratch.path("a.png")).size, (8, 8));
+    run_with(&scratch, &["render", "no.obj", "-o", "a.png"], Stdio::piped(), closed()).exits(1);
+    run_with(&scratch, &["render", "no.obj"], Stdio::piped(), closed()).exits(2);
+}
+
+#[test]
+fn an_interrupt_leaves_nothing_behind() {
+    if fs::read_to_string("/proc/self/status").is_ok_and(|status| ignores_interrupts(&status)) {
+        skipped("whoever started this test had interrupts ignored");
+        return;
+    }
+    let scratch = Scratch::new();
+    scratch.file("a.png", "precious");
+    // Minutes of work, if it were let.
+    let args = ["render", "spd:balls:4", "--accel", "brute", "-j1", "-s", "2048x2048"];
+    let outputs = ["-o", "a.png", "--stats-json", "new.json"];
+    let mut child = scratch.rt_command(&[&args[..], &outputs].concat()).spawn().unwrap();
+    // In a pipe there are lines.
+    let mut line = String::new();
+    BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+    let percent = line.strip_prefix("rendered ").and_then(|line| line.strip_suffix(" %\n"));
+    assert!(percent.is_some_and(|n| n.parse::<u32>().is_ok()), "{line:?}");
+    assert_eq!(scratch.names(), ["a.png"], "while it works");
+
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    let status = child.wait().unwrap();
+    // A shell says 130 to both.
+    assert!(status.signal() == Some(2) || status.code() == Some(130), "{status}");
+    assert_eq!(scratch.names(), ["a.png"], "afterwards");
+    assert_eq!(scratch.bytes("a.png"), b"precious");
+}
+
+/// Whether signal 2 is in the mask of a `/proc/*/status`.
+fn ignores_interrupts(status: &str) -> bool {
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|m| m & 2 != 0)
+}

@@ -1,0 +1,138 @@
+//! Every accelerator gives the same bits as every other, however it is run.
+
+use proptest::prelude::*;
+use rt_kernels::{Accelerator, Brute, Bvh, Exec, Hits, PacketSize, Primitives, Ray, Rays};
+use rt_kernels::{Sequential, Stats};
+use rt_tests::mesh::Mesh;
+use rt_tests::random::Random;
+use rt_tests::strategies::{RayPlan, config, is_in_range, is_valid, ray, scene};
+use rt_tests::trace::{Bits, any as found_any, bits, closest, closest_bits, ways};
+use rt_tests::{aim, rays};
+use simd4::Level;
+
+/// Everything else is compared with this: no hierarchy, no lanes.
+fn plainest() -> Exec {
+    let level = Level::available().next().expect("scalar is always there");
+    Exec { level, packet: PacketSize::Single }
+}
+
+/// Checks closest and any of both accelerators, all ways, against the plainest, and returns that.
+fn one_answer(scene: &Primitives, rays: &Rays) -> Vec<Option<rt_kernels::Hit>> {
+    let brute = Brute::build(scene).expect("a scene in range");
+    let bvh = Bvh::build(scene, &Sequential).expect("a scene in range");
+    let hits = closest(&brute, plainest(), rays);
+    let want: Vec<Bits> = hits.iter().map(|hit| hit.map(bits)).collect();
+    for exec in ways() {
+        same(&want, "brute force", &brute, exec, rays);
+        same(&want, "the hierarchy", &bvh, exec, rays);
+    }
+    hits
+}
+
+fn same(want: &[Bits], name: &str, accel: &impl Accelerator, exec: Exec, rays: &Rays) {
+    let (got, found) = (closest_bits(accel, exec, rays), found_any(accel, exec, rays));
+    for (i, want) in want.iter().enumerate() {
+        let ray = rays.get(i);
+        assert_eq!(got[i], *want, "{name}, {exec:?}: the closest hit of ray {i}, {ray:?}");
+        assert_eq!(found[i], want.is_some(), "{name}, {exec:?}: any hit of ray {i}, {ray:?}");
+    }
+}
+
+/// Rays whose interval ends or begins at a hit, or just short of it.
+fn cut(ray: Ray, t: f32) -> [Ray; 4] {
+    [
+        Ray { tmax: t, ..ray },
+        Ray { tmax: t.next_down(), ..ray },
+        Ray { tmin: t, ..ray },
+        Ray { tmin: t.next_up(), ..ray },
+    ]
+}
+
+#[test]
+fn closest_and_any_are_one() {
+    proptest!(config(), |(scene in scene(), plans in prop::collection::vec(ray(), 1..40))| {
+        let aimed: Rays = plans.iter().map(|plan: &RayPlan| plan.aim(&scene)).collect();
+        let hits = one_answer(&scene, &aimed);
+
+        let mut cuts = Rays::new();
+        let mut want = Vec::new();
+        for (i, hit) in hits.iter().enumerate() {
+            let ray = aimed.get(i);
+            let Some(hit) = hit else { continue };
+            prop_assert!(is_valid(&ray), "{ray:?} is invalid and hits");
+            prop_assert!(hit.t >= ray.tmin && hit.t <= ray.tmax, "{hit:?} is outside of {ray:?}");
+            // What is out of range has one answer too, but it need not make sense.
+            if is_in_range(&ray) {
+                let weights = hit.u >= 0.0 && hit.v >= 0.0 && hit.u + hit.v <= 1.0 + 1e-6;
+                prop_assert!(hit.t.is_finite() && weights, "{hit:?} of {ray:?}");
+                cuts.extend(cut(ray, hit.t));
+                want.push(*hit);
+            }
+        }
+        for (cut, want) in one_answer(&scene, &cuts).chunks(4).zip(want) {
+            prop_assert_eq!(cut[0].map(bits), Some(bits(want)), "the interval's end is in it");
+            prop_assert_eq!(cut[1], None, "nothing is closer than the closest hit");
+            prop_assert!(cut[3].is_none_or(|hit| hit.t > want.t), "{:?} is before the start", cut[3]);
+        }
+    });
+}
+
+/// The hits do not depend on which rays are traced together, nor on what the buffers held before.
+#[test]
+fn batches_do_not_matter() {
+    let plans = || prop::collection::vec(ray(), 1..40);
+    proptest!(config(), |(scene in scene(), plans in plans(), turn in any::<prop::sample::Index>())| {
+        let bvh = Bvh::build(&scene, &Sequential).expect("a scene in range");
+        let aimed: Vec<Ray> = plans.iter().map(|plan| plan.aim(&scene)).collect();
+        let n = aimed.len();
+        let turn = turn.index(n);
+        let permuted: Vec<usize> = (0..n).rev().map(|i| (i + turn) % n).collect();
+        let prefix: Vec<usize> = (0..turn).collect();
+        for exec in ways() {
+            let all: Rays = aimed.iter().copied().collect();
+            let want = closest_bits(&bvh, exec, &all);
+            let (mut hits, mut found) = (Hits::new(), vec![true; 3]);
+            bvh.closest(exec, &all, &mut hits, &mut Stats::default());
+            for order in [&permuted, &prefix] {
+                let some: Rays = order.iter().map(|&i| aimed[i]).collect();
+                bvh.closest(exec, &some, &mut hits, &mut Stats::default());
+                bvh.any(exec, &some, &mut found, &mut Stats::default());
+                prop_assert_eq!((hits.len(), found.len()), (some.len(), some.len()));
+                for (at, &i) in order.iter().enumerate() {
+                    let got = hits.get(at).map(bits);
+                    prop_assert_eq!(got, want[i], "{:?}: ray {} at {}", exec, i, at);
+                    prop_assert_eq!(found[at], want[i].is_some(), "{:?}: ray {}", exec, i);
+                }
+            }
+        }
+    });
+}
+
+/// Closed meshes in planes across the axes, where the distance of many a hit would fall before the
+/// entry into its own box, were it not held there.
+#[test]
+fn meshes_aimed_at_edges_and_vertices() {
+    let ball = Mesh::icosphere(2);
+    let far = glam::Vec3::new(1000.0, -70000.0, 0.0);
+    let meshes = [
+        ("a cube", Mesh::cube(6)),
+        ("a ball", ball.clone()),
+        ("a cube, far", Mesh::cube(6).map(|v| v + far)),
+        ("a flat ball, far", ball.map(|v| v * glam::Vec3::new(1.0, 1e-3, 1.0) + far)),
+    ];
+    let mut random = Random::new(1);
+    for (name, mesh) in meshes {
+        let (scene, edges) = (mesh.primitives(), mesh.edges());
+        let rays: Rays = (0..rays(4_000))
+            .map(|i| {
+                let [a, b] = random.pick(&edges).map(|i| mesh.vertices[i as usize]);
+                let target = if i % 2 == 0 { a } else { aim::between(a, b, random.unit()) };
+                let reach = random.magnitude(-2, 2);
+                aim::at(mesh.vertices[0] + random.in_cube() * reach, target)
+            })
+            .collect();
+        let hits = one_answer(&scene, &rays);
+        let share = hits.iter().flatten().count() as f64 / hits.len() as f64;
+        assert!(share > 0.5, "{name}: only {share} of the rays hit");
+    }
+}

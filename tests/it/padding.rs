@@ -1,0 +1,160 @@
+//! The own box takes no hit away.
+//!
+//! The kernel hits where its signs say so **and** the ray passes the triangle's own box. The box is
+//! padded so that the second never matters: here against a naive test that has no box.
+
+use glam::Vec3;
+use rt_kernels::geom::Triangle;
+use rt_kernels::{Brute, Exec, Primitives, Ray, Rays};
+use rt_tests::oracle::{entry, woop};
+use rt_tests::random::{Random, power};
+use rt_tests::trace::closest;
+use rt_tests::{aim, rays};
+
+/// A triangle of one of the kinds that are hard on boxes, with an extent of about `size`.
+fn triangle(kind: usize, size: f32, random: &mut Random) -> [Vec3; 3] {
+    let mut corners = [(); 3].map(|()| random.in_cube() * size);
+    let [a, b, c] = &mut corners;
+    match kind {
+        // As it comes.
+        0 => {}
+        // In a plane across an axis: its box is all padding there.
+        1 => {
+            let axis = random.below(3);
+            (b[axis], c[axis]) = (a[axis], a[axis]);
+        }
+        // A needle, down to a few units in the last place wide.
+        2 => *c = *b + random.in_cube() * (size * power(-(random.below(24) as i32))),
+        // Three corners nearly on a line.
+        3 => *c = aim::between(*a, *b, random.unit()) + random.in_cube() * (size * 1e-6),
+        // A needle along an axis.
+        4 => {
+            let axis = random.below(3);
+            let width = power(-(random.below(24) as i32));
+            for corner in &mut corners {
+                let along = corner[axis];
+                *corner *= width;
+                corner[axis] = along;
+            }
+        }
+        // On a grid: exact differences, and edges that rays meet exactly.
+        _ => corners = [(); 3].map(|()| (random.in_cube() * 4.0).round() * (size / 4.0)),
+    }
+    corners
+}
+
+/// A ray that barely hits or barely misses.
+fn ray(corners: [Vec3; 3], random: &mut Random) -> Ray {
+    let [a, b, c] = {
+        let first = random.below(3);
+        [0, 1, 2].map(|i| corners[(first + i) % 3])
+    };
+    let extent = (b - a).abs().max((c - a).abs()).max_element();
+    let target = match random.below(6) {
+        0 => a,
+        1 => aim::between(a, b, random.unit()),
+        2 => aim::between(aim::between(a, b, random.unit()), c, random.unit()),
+        // Off an edge, by next to nothing up to a percent.
+        3 => aim::between(a, b, random.unit()) + random.in_cube() * (extent * random.magnitude(-27, -7)),
+        // A corner, one unit in the last place off: the silhouette of the box.
+        4 => {
+            let axis = random.below(3);
+            let mut corner = a;
+            let least = extent * power(-24);
+            corner[axis] = random.pick(&[
+                a[axis].next_up().max(a[axis] + least),
+                a[axis].next_down().min(a[axis] - least),
+            ]);
+            corner
+        }
+        _ => a + random.in_cube() * extent,
+    };
+    let origin = match random.below(8) {
+        // On the triangle.
+        0 => random.pick(&corners),
+        1 => aim::between(a, c, random.unit()),
+        // In its plane, or as near as rounding has it: seen from its edge.
+        2 => a + (b - a) * random.magnitude(-2, 4) + (c - a) * random.magnitude(-2, 4),
+        // Level with a target on one axis or two: directions with zeros, or nearly so.
+        3 | 4 => {
+            let axis = random.below(3);
+            let mut origin = target;
+            origin[axis] += extent * random.magnitude(-10, 20);
+            if random.bits() & 1 == 0 {
+                origin[(axis + 1) % 3] += extent * random.magnitude(-40, 0);
+            }
+            origin
+        }
+        // From a thousandth of the extent to a million.
+        _ => target + random.direction() * (extent * random.magnitude(-10, 20)),
+    };
+    aim::paced(aim::at(origin, target), random.below(5) as i32 - 2)
+}
+
+/// Rays for which the naive test and the kernel could differ, by what they are.
+#[derive(Default)]
+struct Count {
+    hits: usize,
+    clamped: usize,
+    greatest_share: f64,
+}
+
+/// Judges the kernel's hits of one triangle.
+fn judge(corners: [Vec3; 3], rays: &Rays, exec: Exec, count: &mut Count) {
+    let triangle = Triangle { corners };
+    let scene = Primitives { triangles: vec![triangle], spheres: vec![] };
+    let brute = Brute::build(&scene).expect("in range");
+    for (i, hit) in closest(&brute, exec, rays).into_iter().enumerate() {
+        let ray = rays.get(i);
+        let award = if ray.dir == Vec3::ZERO { None } else { woop(&ray, corners) };
+        let Some(award) = award else {
+            assert!(hit.is_none(), "{exec:?}: {hit:?}, but not by the signs: {ray:?}, {corners:?}");
+            continue;
+        };
+        if award.t.abs() <= award.slack {
+            continue; // At the very start of the ray: rounding decides whether it is ahead.
+        }
+        let Some(hit) = hit else {
+            assert!(award.t < 0.0, "{exec:?}: {award:?} was taken away from {ray:?}, {corners:?}");
+            continue;
+        };
+        count.hits += 1;
+        let entry = entry(&ray, &triangle.own_box());
+        let t = f64::from(hit.t);
+        assert!(hit.t >= entry, "{exec:?}: {hit:?} before {entry}: {ray:?}, {corners:?}");
+        if hit.t == entry {
+            count.clamped += 1;
+            let late = f64::from(entry) > award.t + award.slack + 1e-5 * award.t;
+            assert!(!late, "{exec:?}: {hit:?} is behind {award:?}: {ray:?}, {corners:?}");
+        } else {
+            let share = (t - award.t).abs() / award.slack;
+            count.greatest_share = count.greatest_share.max(share);
+            assert!(share <= 1.0, "{exec:?}: {hit:?} is not at {award:?}: {ray:?}, {corners:?}");
+        }
+    }
+}
+
+/// Three million rays at fifty thousand triangles, from 2^-16 to 2^17 in size.
+#[test]
+fn own_boxes_take_no_hit_away() {
+    let best = Exec::best().expect("a level");
+    let mut random = Random::new(5);
+    let mut count = Count::default();
+    let batch = 64;
+    for i in 0..rays(3_000_000) / batch {
+        let size = random.magnitude(-16, 16).abs();
+        let mut corners = triangle(i % 6, size, &mut random);
+        // Near the origin, or far from it by up to a million extents.
+        if random.bits() & 1 == 0 {
+            let away = random.in_cube() * (size * random.magnitude(0, 19));
+            corners = corners.map(|corner| corner + away);
+        }
+        let rays: Rays = (0..batch).map(|_| ray(corners, &mut random)).collect();
+        judge(corners, &rays, best, &mut count);
+    }
+    let Count { hits, clamped, .. } = count;
+    let all = rays(3_000_000);
+    assert!(hits > all / 5, "only {hits} of {all} rays hit");
+    assert!(clamped > 0, "no hit was held at the entry: the rays do not try the clamp");
+    if std::env::var_os("SHOW").is_some() { println!("{hits} {clamped} {}", count.greatest_share); }
+}

@@ -1,0 +1,119 @@
+//! One scene, one picture: on every level, machine, accelerator, packet size and thread count.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use glam::Vec3;
+use rt_render::{AccelKind, Exec, Film, Integrator, Job, Silent, World, fitted_view, render};
+use rt_scene::Scene;
+use rt_tests::hash::fnv1a;
+use rt_tests::scenes::{bumpy, room};
+use rt_tests::trace::ways;
+
+/// Neither side is a multiple of the tiles', and no tile is alone.
+const SIZE: (u32, u32) = (75, 50);
+
+const INTEGRATORS: [Integrator; 4] =
+    [Integrator::Whitted, Integrator::Eyelight, Integrator::Normals, Integrator::Depth];
+
+fn scenes() -> [Scene; 3] {
+    [bumpy(), room(), rt_scene::open("spd:balls:2").expect("a scene that is computed")]
+}
+
+/// The picture of a scene, seen as it says or from in front.
+fn job(world: &World, scene: &Scene, integrator: Integrator, exec: Exec) -> Job {
+    Job {
+        size: SIZE,
+        view: scene.view.unwrap_or_else(|| fitted_view(world.bounds(), SIZE, Vec3::Y, 40.0)),
+        lights: scene.lights.clone(),
+        background: scene.background.unwrap_or(Vec3::splat(0.1)),
+        integrator,
+        depth: 4,
+        shadows: true,
+        exec,
+        threads: 1,
+    }
+}
+
+fn world(scene: &Scene, kind: AccelKind, threads: usize) -> World {
+    World::build(scene.clone(), kind, threads).expect("a scene that can be rendered")
+}
+
+/// All that a film shows, to the last bit.
+fn bytes(film: &Film) -> Vec<u8> {
+    let channels = film.pixels().iter().flat_map(|pixel| pixel.to_array());
+    let exact = channels.flat_map(|channel| channel.to_bits().to_le_bytes());
+    exact.chain(film.to_srgb8()).collect()
+}
+
+fn picture(world: &World, job: &Job) -> Vec<u8> {
+    let (film, _) = render(world, job, &Silent).expect("a job that can be done");
+    assert_eq!((film.width(), film.height()), SIZE);
+    assert!(film.pixels().iter().all(|pixel| pixel.is_finite()), "a pixel is not finite");
+    bytes(&film)
+}
+
+#[test]
+fn every_way_makes_the_same_picture() {
+    let best = Exec::best().expect("a level");
+    for scene in scenes() {
+        let bvh = world(&scene, AccelKind::Bvh, 1);
+        let others = [world(&scene, AccelKind::Bvh, 2), world(&scene, AccelKind::Brute, 1)];
+        for integrator in INTEGRATORS {
+            let job = |exec, threads| Job { threads, ..job(&bvh, &scene, integrator, exec) };
+            let want = picture(&bvh, &job(best, 1));
+            let name = format!("{} {}", scene.name, integrator.name());
+            let same = |world: &World, exec, threads| {
+                let way = format!("{:?}, {exec:?}, {threads} threads", world.accel_kind());
+                assert!(picture(world, &job(exec, threads)) == want, "{name} differs: {way}");
+            };
+            for exec in ways() {
+                same(&bvh, exec, 1);
+                same(&others[1], exec, 1);
+            }
+            for threads in [2, 3] {
+                same(&bvh, best, threads);
+                same(&others[0], best, threads);
+            }
+        }
+    }
+}
+
+/// The file holds what was seen and found good, once for all architectures.
+#[test]
+fn pictures_are_golden() {
+    let exec = Exec::best().expect("a level");
+    let mut got = String::new();
+    for scene in scenes() {
+        let world = world(&scene, AccelKind::Bvh, 1);
+        for integrator in INTEGRATORS {
+            let hash = fnv1a(picture(&world, &job(&world, &scene, integrator, exec)));
+            let name = scene.name.replace(':', "-");
+            writeln!(got, "{name}-{} {hash:016x}", integrator.name()).expect("memory");
+        }
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/films.txt");
+    if std::env::var_os("RT_BLESS").is_some() {
+        std::fs::write(&path, &got).expect("golden/films.txt can be written");
+    }
+    let want = std::fs::read_to_string(&path).unwrap_or_default();
+    assert_eq!(got, want, "pictures changed: if they should, `cargo xtask bless`");
+}
+
+/// Guards the two tests above: pictures of nothing are all alike.
+#[test]
+fn pictures_show_something() {
+    let exec = Exec::best().expect("a level");
+    for scene in scenes() {
+        let world = world(&scene, AccelKind::Bvh, 1);
+        for integrator in INTEGRATORS {
+            let job = job(&world, &scene, integrator, exec);
+            let (film, _) = render(&world, &job, &Silent).expect("a job that can be done");
+            let mut colors: Vec<_> = film.to_srgb8().chunks(3).map(<[u8]>::to_vec).collect();
+            colors.sort();
+            colors.dedup();
+            let name = integrator.name();
+            assert!(colors.len() > 40, "{} {name}: only {} colours", scene.name, colors.len());
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Running the kernels every way there is.
+
+use rt_kernels::{Accelerator, Exec, Hit, Hits, PacketSize, Rays, Stats};
+use simd4::Level;
+
+/// Every level of this machine with every packet size. (A single ray goes the same way at every
+/// level: once is enough.)
+pub fn ways() -> Vec<Exec> {
+    let first = Level::available().next().expect("scalar is always there");
+    let packets = [PacketSize::Native, PacketSize::Four, PacketSize::Eight];
+    let lanes = Level::available()
+        .flat_map(|level| packets.into_iter().map(move |packet| Exec { level, packet }));
+    [Exec { level: first, packet: PacketSize::Single }].into_iter().chain(lanes).collect()
+}
+
+/// What a ray hit, bit by bit: t, primitive, u, v.
+pub type Bits = Option<[u32; 4]>;
+
+/// The bits of a hit.
+pub fn bits(hit: Hit) -> [u32; 4] {
+    [hit.t.to_bits(), hit.prim, hit.u.to_bits(), hit.v.to_bits()]
+}
+
+/// The closest hit of each ray.
+pub fn closest(accel: &impl Accelerator, exec: Exec, rays: &Rays) -> Vec<Option<Hit>> {
+    let mut hits = Hits::new();
+    accel.closest(exec, rays, &mut hits, &mut Stats::default());
+    assert_eq!(hits.len(), rays.len(), "one answer a ray");
+    (0..rays.len()).map(|i| hits.get(i)).collect()
+}
+
+/// The bits of the closest hit of each ray.
+pub fn closest_bits(accel: &impl Accelerator, exec: Exec, rays: &Rays) -> Vec<Bits> {
+    closest(accel, exec, rays).into_iter().map(|hit| hit.map(bits)).collect()
+}
+
+/// Whether each ray hits anything.
+pub fn any(accel: &impl Accelerator, exec: Exec, rays: &Rays) -> Vec<bool> {
+    let mut found = Vec::new();
+    accel.any(exec, rays, &mut found, &mut Stats::default());
+    found
+}
