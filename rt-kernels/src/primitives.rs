@@ -85,8 +85,7 @@ impl TriangleRecord {
     /// The own box of the triangle, the same bits as [`Triangle::own_box`]: all axes at once.
     #[inline(always)]
     pub(crate) fn own_box<S: Simd>(&self, s: S) -> Aabb {
-        let corner = |[x, y, z]: [f32; 3]| S::f32x4::from_array(s, [x, y, z, 0.0]);
-        let (a, b, c) = (corner(self.a), corner(self.b), corner(self.c));
+        let (a, b, c) = (block(s, self.a), block(s, self.b), block(s, self.c));
         let min = a.min(b).min(c);
         let max = a.max(b).max(c);
         let [x, y, z, _] = (max - min).to_array();
@@ -98,6 +97,12 @@ impl TriangleRecord {
         let [x1, y1, z1, _] = (max + pad).to_array();
         Aabb { axes: [[x0, x1], [y0, y1], [z0, z1]] }
     }
+}
+
+/// A corner in one register; the fourth lane is of no account.
+#[inline(always)]
+fn block<S: Simd>(s: S, [x, y, z]: [f32; 3]) -> S::f32x4 {
+    S::f32x4::from_array(s, [x, y, z, 0.0])
 }
 
 /// A sphere as leaves hold it: 32 bytes.

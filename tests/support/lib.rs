@@ -3,6 +3,7 @@
 //! An oracle is separate, dumb and short, and shares no code with what it judges.
 
 pub mod aim;
+pub mod figures;
 pub mod hash;
 pub mod mesh;
 pub mod oracle;

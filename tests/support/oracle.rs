@@ -104,7 +104,10 @@ pub fn woop(ray: &Ray, corners: [Vec3; 3]) -> Option<Award> {
     // come a dozen roundings of what is made of them.
     let from_edges = (0..3).map(|i| 2.0 * products[i] * (sheared[i][2] - along).abs()).sum::<f64>();
     let greatest = sheared.iter().fold(0.0, |max: f64, corner| max.max(corner[2].abs()));
-    let slack = ROUNDOFF * (from_edges / det.abs() + 12.0 * greatest) / f64::from(d[z]).abs();
+    let relative = ROUNDOFF * (from_edges / det.abs() + 12.0 * greatest);
+    // Of needles next to nothing wide, products underflow.
+    let absolute = 8.0 * f64::from(f32::from_bits(1)) * (1.0 + greatest) / det.abs();
+    let slack = (relative + absolute) / f64::from(d[z]).abs();
     Some(Award { t: along / f64::from(d[z]), slack })
 }
 
