@@ -120,6 +120,21 @@ fn the_background_is_what_the_flag_says_in_srgb() {
 }
 
 #[test]
+fn light_and_background_are_the_flag_s_or_the_scene_s() {
+    let scratch = Scratch::new();
+    let scene = "b 0 0 1\nl 0 0 9\nf 1 1 1 1 0 0 0 1\ns 0 0 0 1\n";
+    let view = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 20 20\n";
+    scratch.file("a.nff", format!("{view}{scene}"));
+    let picture = |flags: &[&str]| Picture::decode(&scratch.png(&[&["a.nff"], flags].concat()));
+    let own = picture(&[]);
+    assert_eq!(own.pixel(0, 0), [0, 0, 255]);
+    assert_eq!(picture(&["--background", "0,1,0"]).pixel(0, 0), [0, 255, 0]);
+    let lit = picture(&["--light", "0,0,9,1,0,0"]);
+    assert!(own.pixel(10, 10)[1] > 200 && lit.pixel(10, 10)[1] == 0);
+    assert!(lit.pixel(10, 10)[0] > 200);
+}
+
+#[test]
 fn normals_and_depth_are_what_they_say() {
     let scratch = Scratch::new();
     scratch.file("a.obj", TRIANGLE);
