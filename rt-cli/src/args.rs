@@ -1,7 +1,10 @@
 //! The command line.
 
+use std::ffi::OsString;
+use std::iter;
 use std::path::PathBuf;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Args as Group, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
 use rt_render::{AccelKind, Exec, Integrator, Level, PacketSize};
@@ -46,7 +49,7 @@ pub(crate) enum Command {
     rt render room.obj --eye 1,2,5 --target 0,1,0 --light 0,3,0 -o room.png")]
 pub(crate) struct RenderArgs {
     #[arg(help = SCENE)]
-    pub(crate) scene: String,
+    pub(crate) scene: OsString,
     /// The PNG file to write; - for standard output.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
@@ -119,7 +122,7 @@ pub(crate) struct MachineArgs {
     /// The instructions to use: auto is the best level of this CPU (rt info lists those it has), or
     /// what the environment variable SIMD4_LEVEL says.
     #[arg(long, value_name = "LEVEL", default_value = "auto",
-          value_parser = ["auto", "scalar", "sse2", "sse4.1", "avx2", "neon"])]
+          value_parser = level_names())]
     isa: String,
     /// Rays that go together: native is as many as a register has lanes.
     #[arg(long, value_name = "SIZE", default_value = "native",
@@ -205,7 +208,7 @@ pub(crate) struct GenArgs {
 #[command(after_help = "Examples:\n  rt info bunny.obj\n  rt info --json")]
 pub(crate) struct InfoArgs {
     #[arg(help = SCENE)]
-    pub(crate) scene: Option<String>,
+    pub(crate) scene: Option<OsString>,
     /// Answer as JSON.
     #[arg(long)]
     pub(crate) json: bool,
@@ -221,7 +224,7 @@ pub(crate) struct InfoArgs {
     rt bench spd:balls --json balls.json")]
 pub(crate) struct BenchArgs {
     #[arg(value_name = "SCENE", required = true, help = SCENE)]
-    pub(crate) scenes: Vec<String>,
+    pub(crate) scenes: Vec<OsString>,
     /// Width and height in pixels.
     #[arg(short, long, value_name = "WxH", value_parser = size, default_value = "512x512")]
     pub(crate) size: (u32, u32),
@@ -290,6 +293,11 @@ fn names() -> String {
         format!("{} ({}; sizes {least} to {greatest}, else {default})", scene.name, scene.about)
     });
     format!("The scene's name: {}", scenes.collect::<Vec<_>>().join(", "))
+}
+
+/// What `--isa` may be: a name that is no level at all is a mistake in the command line.
+fn level_names() -> PossibleValuesParser {
+    iter::once("auto").chain(Level::NAMES).into()
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {

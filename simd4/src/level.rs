@@ -26,10 +26,10 @@ pub enum Level {
     Neon(Neon),
 }
 
-/// Every name that [`Level::named`] knows, whatever the architecture.
-const NAMES: [&str; 5] = ["scalar", "sse2", "sse4.1", "avx2", "neon"];
-
 impl Level {
+    /// The names of all levels, of every architecture: what [`Level::named`] may be asked for.
+    pub const NAMES: [&str; 5] = ["scalar", "sse2", "sse4.1", "avx2", "neon"];
+
     /// All levels of this architecture, weakest first; `None` for those that the CPU lacks.
     fn detect() -> impl DoubleEndedIterator<Item = Option<Level>> {
         [
@@ -53,13 +53,14 @@ impl Level {
         Self::detect().flatten()
     }
 
-    /// The best level of this CPU, or the one that the environment variable `SIMD4_LEVEL` names.
+    /// The best level of this CPU, or the one that the environment variable `SIMD4_LEVEL` names
+    /// if it is set and not empty.
     ///
     /// # Errors
     /// If `SIMD4_LEVEL` names no level, or one that this CPU lacks.
     pub fn best() -> Result<Level, LevelError> {
         #[cfg(feature = "std")]
-        if let Some(name) = std::env::var_os("SIMD4_LEVEL") {
+        if let Some(name) = std::env::var_os("SIMD4_LEVEL").filter(|name| !name.is_empty()) {
             return Self::named(&name.to_string_lossy());
         }
         Ok(Self::available().next_back().expect("scalar is always there"))
@@ -70,7 +71,7 @@ impl Level {
     /// # Errors
     /// If there is no such level, or this CPU lacks it. The error lists those it has.
     pub fn named(name: &str) -> Result<Level, LevelError> {
-        let known = NAMES.iter().find(|known| **known == name);
+        let known = Self::NAMES.iter().find(|known| **known == name);
         Self::available()
             .find(|level| level.name() == name)
             .ok_or(LevelError { lacking: known.copied() })

@@ -36,12 +36,17 @@ fn corners_out_of_range_are_refused() {
                 (-2.0 * limit, Some(BuildError::OutOfRange { prim: 2 })),
                 (0.99 * limit, None),
             ] {
-                let mut scene = Primitives { triangles: vec![triangle(); 4], spheres: vec![ball()] };
+                let mut scene =
+                    Primitives { triangles: vec![triangle(); 4], spheres: vec![ball()] };
                 scene.triangles[2].corners[corner][axis] = value;
                 let why = refusal(&scene);
                 // The own box of a corner near the largest number overflows: either name will do.
-                let either = value == f32::MAX && matches!(why, Some(BuildError::OutOfRange { prim: 2 }));
-                assert!(why == want || either, "{value} as axis {axis} of corner {corner}: {why:?}");
+                let either =
+                    value == f32::MAX && matches!(why, Some(BuildError::OutOfRange { prim: 2 }));
+                assert!(
+                    why == want || either,
+                    "{value} as axis {axis} of corner {corner}: {why:?}"
+                );
             }
         }
     }
@@ -81,7 +86,8 @@ fn refusals_name_the_primitive() {
 fn nothing_is_hit_where_there_is_nothing() {
     let scene = Primitives::default();
     let (brute, bvh) = (Brute::build(&scene), Bvh::build(&scene, &Sequential));
-    let (brute, bvh) = (brute.expect("no primitives are fine"), bvh.expect("no primitives are fine"));
+    let (brute, bvh) =
+        (brute.expect("no primitives are fine"), bvh.expect("no primitives are fine"));
     assert_eq!(bvh.nodes(), 0);
     let rays: Rays = (0..11).map(|_| aim::at(Vec3::ZERO, Vec3::X)).collect();
     for exec in ways() {
@@ -99,14 +105,23 @@ fn nothing_is_hit_where_there_is_nothing() {
 fn pathological_scenes_build_and_are_right() {
     let spaced = |i: usize| {
         let at = power(-(i as i32 % 120));
-        Triangle { corners: [Vec3::splat(at), Vec3::new(at, 2.0 * at, at), Vec3::new(at, at, 2.0 * at)] }
+        Triangle {
+            corners: [Vec3::splat(at), Vec3::new(at, 2.0 * at, at), Vec3::new(at, at, 2.0 * at)],
+        }
     };
     let flat = |i: usize| {
         let at = (i % 300) as f32;
-        Triangle { corners: [Vec3::new(at, 0.0, 0.0), Vec3::new(at + 1.0, 0.0, 0.0), Vec3::new(at, 1.0, 0.0)] }
+        Triangle {
+            corners: [
+                Vec3::new(at, 0.0, 0.0),
+                Vec3::new(at + 1.0, 0.0, 0.0),
+                Vec3::new(at, 1.0, 0.0),
+            ],
+        }
     };
     let point = |_| Triangle { corners: [Vec3::ONE; 3] };
-    let scenes: [(&str, usize, &dyn Fn(usize) -> Triangle); 5] = [
+    type Shape<'a> = &'a dyn Fn(usize) -> Triangle;
+    let scenes: [(&str, usize, Shape<'_>); 5] = [
         ("identical", 100_000, &|_| triangle()),
         ("spaced by powers of two", 120, &spaced),
         ("spaced by powers of two, many of each", 100_000, &spaced),

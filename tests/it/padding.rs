@@ -55,7 +55,10 @@ fn ray(corners: [Vec3; 3], random: &mut Random) -> Ray {
         1 => aim::between(a, b, random.unit()),
         2 => aim::between(aim::between(a, b, random.unit()), c, random.unit()),
         // Off an edge, by next to nothing up to a percent.
-        3 => aim::between(a, b, random.unit()) + random.in_cube() * (extent * random.magnitude(-27, -7)),
+        3 => {
+            aim::between(a, b, random.unit())
+                + random.in_cube() * (extent * random.magnitude(-27, -7))
+        }
         // A corner, one unit in the last place off: the silhouette of the box.
         4 => {
             let axis = random.below(3);

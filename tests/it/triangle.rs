@@ -5,7 +5,7 @@ use rt_kernels::geom::Triangle;
 use rt_kernels::{Brute, Exec, Hit, Primitives, Ray, Rays};
 use rt_tests::figures::Errors;
 use rt_tests::oracle::{Meeting, ROUNDOFF, plane, ulps};
-use rt_tests::random::{Random, power};
+use rt_tests::random::Random;
 use rt_tests::trace::{closest, ways};
 use rt_tests::{aim, rays};
 
@@ -52,8 +52,8 @@ fn ray_near_edge([a, b, c]: [Vec3; 3], random: &mut Random) -> Ray {
     aim::at(target + random.direction() * (extent * random.magnitude(-3, 10)), target)
 }
 
-/// Hit or miss is decided as if the corners were within six roundoffs of their places, of their
-/// distance to the origin: here it is seen, for the edges, that this is so, and how near it comes.
+/// Hit or miss is decided as if the corners were within six roundoffs, of their distance to the
+/// ray's origin, of their places. (Worst seen in 40 million: 1.15.)
 #[test]
 fn hit_and_miss_are_right_but_for_a_band() {
     let mut band: f64 = 0.0;
@@ -64,16 +64,13 @@ fn hit_and_miss_are_right_but_for_a_band() {
             return; // Behind, or all but: not the edges' business.
         }
         let wrong = (meeting.outside > 0.0) == got.is_some();
-        if wrong {
-            band = band.max(meeting.outside.abs() / ROUNDOFF);
-        }
+        let roundoffs = meeting.outside.abs() / ROUNDOFF;
+        assert!(!wrong || roundoffs < 2.0, "{got:?}, {meeting:?}, {ray:?}, {corners:?}");
+        band = if wrong { band.max(roundoffs) } else { band };
         *(if got.is_some() { &mut hit } else { &mut missed }) += 1;
-        let limit = 6.0 * ROUNDOFF;
-        assert!(!wrong || meeting.outside.abs() < limit, "{got:?}, {meeting:?}, {ray:?}, {corners:?}");
     });
     assert!(hit.min(missed) > rays(200_000), "{hit} hits and {missed} misses");
     assert!(band > 0.0, "nothing is ever in doubt: the rays are not aimed well");
-    println!("band {band}");
 }
 
 /// A triangle of extent near 1 with no sharp corner, about `center`.
@@ -99,7 +96,8 @@ fn fair_ray([a, b, c]: [Vec3; 3], random: &mut Random) -> Ray {
     }
 }
 
-/// Errors of `t`, in units in its last place, and of the weights, in roundoffs.
+/// Errors of `t`, in units in its last place, and of the weights, in roundoffs of the distance in
+/// extents.
 fn accuracy(center: Vec3) -> [Errors; 2] {
     let [mut t, mut weights] = [Errors::default(), Errors::default()];
     let triangle = |random: &mut Random| fair_triangle(center, random);
@@ -108,25 +106,29 @@ fn accuracy(center: Vec3) -> [Errors; 2] {
         let Meeting { t: exact, weights: [_, u, v], .. } = meeting;
         t.add(ulps(hit.t, exact));
         let distance = exact * ray.dir.as_dvec3().length();
-        weights.add((f64::from(hit.u) - u).abs().max((f64::from(hit.v) - v).abs()) / (ROUNDOFF * distance));
+        weights.add(
+            (f64::from(hit.u) - u).abs().max((f64::from(hit.v) - v).abs()) / (ROUNDOFF * distance),
+        );
     });
     assert!(t.count() > rays(900_000), "only {} hits", t.count());
     [t, weights]
 }
 
+/// Of 20 million: t p50 0.44, p99 2.5, maximum 7.0; weights p99 2.0, maximum 13.5.
 #[test]
 fn distances_and_weights_are_accurate() {
     let [t, weights] = accuracy(Vec3::ZERO);
-    t.clone().within("t", 9.0, 90.0);
-    weights.within("weights", 4.0, 16.0);
+    t.within("t", 3.0, 8.0);
+    weights.within("weights", 3.0, 20.0);
 }
 
-/// The kernel sees the triangle from the ray's origin: the world's origin is nothing to it.
+/// The kernel sees a triangle from the ray's origin: the world's origin is nothing to it. (Of 20
+/// million: t p50 0.58, p99 2.7, maximum 6.3; weights p99 1.5, maximum 11.4.)
 #[test]
 fn distances_and_weights_are_accurate_far_from_the_origin() {
     let [t, weights] = accuracy(Vec3::new(-1e5, 1e5, 1e4));
-    t.clone().within("t", 9.0, 90.0);
-    weights.within("weights", 4.0, 16.0);
+    t.within("t", 3.0, 8.0);
+    weights.within("weights", 3.0, 20.0);
 }
 
 /// With two equal corners or three, a triangle is never hit, wherever the ray comes from.
@@ -150,35 +152,40 @@ fn triangles_with_equal_corners_are_never_hit() {
     }
 }
 
-/// Corners on a line, and rays in the triangle's plane: hit or not, what comes back makes sense.
+/// Corners on a line, or as near to it as numbers go, and rays along it: rounding may give such a
+/// triangle an area, but what comes back makes sense.
 #[test]
-fn hits_of_degenerate_triangles_make_sense() {
+fn hits_of_triangles_without_area_make_sense() {
     let mut random = Random::new(24);
-    let (mut hit, mut exact_hit) = (0, 0);
-    for i in 0..rays(20_000) {
-        let [mut a, mut b, _] = any_triangle(&mut random);
-        let c;
-        if i % 2 == 0 {
-            [a, b] = [a, b].map(|v| (v * power(-12)).round());
-            c = a + (b - a) * random.pick(&[2.0, 0.5, -1.0]);
-        } else {
-            c = aim::between(a, b, random.unit());
+    for i in 0..rays(30_000) {
+        let [mut a, mut b, mut c] = any_triangle(&mut random);
+        match i % 3 {
+            0 => {
+                [a, b] = [a, b].map(Vec3::round);
+                c = a + (b - a) * random.pick(&[2.0, 0.5, -1.0]);
+            }
+            1 => c = aim::between(a, b, random.unit()),
+            _ => {
+                let (axis, width) = (random.below(3), f32::from_bits(1 << random.below(28)));
+                for corner in [&mut a, &mut b, &mut c] {
+                    corner[axis] = width * random.signed().round();
+                }
+            }
         }
         let corners = [a, b, c];
         let rays: Rays = (0..16)
-            .map(|_| {
+            .map(|j| {
                 let target = aim::between(a, b, random.unit());
-                aim::at(target + random.direction() * random.magnitude(-4, 4), target)
+                let within = (b - a) * random.signed() + (c - a) * random.signed();
+                let beside = random.direction() * random.magnitude(-4, 4);
+                aim::at(target + if j % 2 == 0 { within * 4.0 } else { beside }, target)
             })
             .chain([aim::at(a, b), aim::at(a - (b - a), a), aim::at(c, b)])
             .collect();
-        for (j, got) in hits(corners, &rays, Exec::best().expect("a level")).iter().enumerate() {
-            let Some(got) = got else { continue };
-            hit += 1;
-            if i % 2 == 0 { exact_hit += 1; }
-            let sound = got.t.is_finite() && got.t >= 0.0 && got.u >= 0.0 && got.v >= 0.0 && got.u + got.v <= 1.0 + 1e-6;
-            assert!(sound, "{got:?} of {:?}, {corners:?}", rays.get(j));
+        for (j, hit) in hits(corners, &rays, Exec::best().expect("a level")).iter().enumerate() {
+            let Some(Hit { t, u, v, .. }) = *hit else { continue };
+            let sound = t.is_finite() && t >= 0.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0 + 1e-6;
+            assert!(sound, "{hit:?} of {:?}, {corners:?}", rays.get(j));
         }
     }
-    println!("degenerate hits {hit} {exact_hit}");
 }

@@ -15,6 +15,8 @@ use simd4::Level;
 /// A closed mesh about `center`, and a radius within which all is inside.
 struct Vessel {
     mesh: Mesh,
+    edges: Vec<[u32; 2]>,
+    bvh: Bvh,
     center: Vec3,
     inside: f32,
 }
@@ -26,7 +28,13 @@ fn vessel(radius: f32, center: Vec3, jitter: f32) -> Vessel {
     let place = |v: Vec3| v * (1.0 + jitter * random.signed()) * radius + center;
     let mesh = Mesh::icosphere(6).map(place);
     assert_eq!(mesh.faces.len(), 81_920);
-    Vessel { mesh, center, inside: 0.9 * radius * (1.0 - jitter) }
+    Vessel {
+        edges: mesh.edges(),
+        bvh: Bvh::build(&mesh.primitives(), &Sequential).expect("in range"),
+        mesh,
+        center,
+        inside: 0.9 * radius * (1.0 - jitter),
+    }
 }
 
 impl Vessel {
@@ -41,19 +49,18 @@ impl Vessel {
     }
 
     /// The point that ray `i` aims at: now a vertex, now a point of an edge.
-    fn target(&self, i: usize, edges: &[[u32; 2]], random: &mut Random) -> Vec3 {
+    fn target(&self, i: usize, random: &mut Random) -> Vec3 {
         let at = |i: u32| self.mesh.vertices[i as usize];
         if i.is_multiple_of(2) {
             return self.mesh.vertices[random.below(self.mesh.vertices.len())];
         }
-        let [a, b] = random.pick(edges);
+        let [a, b] = random.pick(&self.edges);
         aim::between(at(a), at(b), if i % 8 == 1 { 0.5 } else { random.unit() })
     }
 
     /// Rays in every direction, that share no more than chance has it.
     fn scattered(&self, n: usize, random: &mut Random) -> Rays {
-        let edges = self.mesh.edges();
-        (0..n).map(|i| aim::at(self.origin(random), self.target(i, &edges, random))).collect()
+        (0..n).map(|i| aim::at(self.origin(random), self.target(i, random))).collect()
     }
 
     /// From each of some points at every vertex and at every edge of a stretch of the mesh, in
@@ -65,7 +72,10 @@ impl Vessel {
             let first = random.below(self.mesh.faces.len() - 1024);
             for face in first..first + 1024 {
                 let [a, b, _] = self.mesh.corners(face);
-                rays.extend([aim::at(origin, a), aim::at(origin, aim::between(a, b, random.unit()))]);
+                rays.extend([
+                    aim::at(origin, a),
+                    aim::at(origin, aim::between(a, b, random.unit())),
+                ]);
             }
         }
         rays
@@ -74,10 +84,9 @@ impl Vessel {
     /// Along the axis on which a target is farthest from the centre, from the plane of the centre,
     /// exactly at the target, with zeros of both signs.
     fn parallel(&self, n: usize, random: &mut Random) -> Rays {
-        let edges = self.mesh.edges();
         (0..n)
             .map(|i| {
-                let target = self.target(i, &edges, random);
+                let target = self.target(i, random);
                 let axis = (target - self.center).abs().max_position();
                 let mut origin = target;
                 origin[axis] = self.center[axis];
@@ -92,28 +101,26 @@ impl Vessel {
     /// From just off the inner side, where a renderer's reflected rays start: as far from the
     /// surface as 64 roundoffs of its coordinates.
     fn grazing(&self, n: usize, random: &mut Random) -> Rays {
-        let edges = self.mesh.edges();
         (0..n)
             .map(|i| {
                 let [a, b, c] = self.mesh.corners(random.below(self.mesh.faces.len()));
                 let point = (a + b + c) / 3.0;
                 let off = 64.0 * ROUNDOFF as f32 * point.abs().max_element();
                 let origin = point + (self.center - point).normalize() * off;
-                aim::at(origin, self.target(i, &edges, random))
+                aim::at(origin, self.target(i, random))
             })
             .collect()
     }
 
-    /// Traces rays at every level, and counts those that a common test would lose.
+    /// No ray gets out, at any level.
     fn holds(&self, name: &str, rays: &Rays) {
-        let bvh = Bvh::build(&self.mesh.primitives(), &Sequential).expect("in range");
         for level in Level::available() {
-            let found = any(&bvh, Exec::at(level), rays);
+            let found = any(&self.bvh, Exec::at(level), rays);
             let leaks = found.iter().filter(|found| !**found).count();
             let first = found.iter().position(|found| !found).map(|i| rays.get(i));
             assert_eq!(leaks, 0, "{name}, {level}: of {} rays, the first {first:?}", rays.len());
         }
-        let hits = closest(&bvh, Exec::best().expect("a level"), rays);
+        let hits = closest(&self.bvh, Exec::best().expect("a level"), rays);
         let leaks = hits.iter().filter(|hit| hit.is_none()).count();
         assert_eq!(leaks, 0, "{name}, closest hits");
     }

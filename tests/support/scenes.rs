@@ -81,15 +81,22 @@ pub fn room() -> Scene {
         }),
         ..Scene::default()
     };
-    for (material, axis, side) in [(1, 0, -1.0), (2, 0, 1.0), (0, 1, -1.0), (0, 1, 1.0), (0, 2, -1.0)] {
+    for (material, axis, side) in
+        [(1, 0, -1.0), (2, 0, 1.0), (0, 1, -1.0), (0, 1, 1.0), (0, 2, -1.0)]
+    {
         quad(&mut scene, material, axis, side, Vec3::ZERO, 1.0);
     }
     quad(&mut scene, 3, 1, 1.0, Vec3::new(0.0, -1.0 / 64.0, 0.0), 0.25);
     quad(&mut scene, 4, 2, -1.0, Vec3::new(0.25, 0.125, 1.0 / 64.0), 0.5);
-    let turned = |v: Vec3| Vec3::new(0.8 * v.x - 0.6 * v.z, 1.5 * v.y, 0.6 * v.x + 0.8 * v.z) * 0.25;
+    let turned =
+        |v: Vec3| Vec3::new(0.8 * v.x - 0.6 * v.z, 1.5 * v.y, 0.6 * v.x + 0.8 * v.z) * 0.25;
     let block = Mesh::cube(2).map(|v| snap(turned(v) + Vec3::new(-0.45, -0.625, -0.3)));
     add(&mut scene, &block, 0, None);
-    scene.spheres.push(Sphere { center: Vec3::new(0.5, -0.6875, 0.25), radius: 0.3125, material: 4 });
+    scene.spheres.push(Sphere {
+        center: Vec3::new(0.5, -0.6875, 0.25),
+        radius: 0.3125,
+        material: 4,
+    });
     scene
 }
 

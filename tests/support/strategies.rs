@@ -23,7 +23,8 @@ pub fn config() -> ProptestConfig {
 pub fn scene() -> impl Strategy<Value = Primitives> {
     let grid = prop::array::uniform3((-3i8..=3).prop_map(f32::from));
     let anywhere = prop::array::uniform3(-1.0f32..1.0);
-    let pool = prop_oneof![prop::collection::vec(grid, 3..9), prop::collection::vec(anywhere, 3..9)];
+    let pool =
+        prop_oneof![prop::collection::vec(grid, 3..9), prop::collection::vec(anywhere, 3..9)];
     (pool, place(), prop::collection::vec(shape(), 0..20)).prop_map(|(pool, place, shapes)| {
         let pool: Vec<Vec3> = pool.into_iter().map(|point| place.apply(point.into())).collect();
         let mut scene = Primitives::default();
@@ -272,7 +273,7 @@ impl RayPlan {
                 let sign = (target - origin)[axis];
                 origin = target;
                 origin[axis] = along;
-                dir = dir * 0.0;
+                dir *= 0.0;
                 dir[axis] = if sign == 0.0 { 1.0 } else { sign };
             }
             Bend::Component(axis, value) => dir[axis] = value,

@@ -30,7 +30,19 @@ pub struct Job {
 }
 
 /// The most pixels of a picture.
-pub(crate) const MAX_PIXELS: u64 = 1 << 27;
+const MAX_PIXELS: u64 = 1 << 27;
+
+/// Refuses pictures of no pixels or too many: sooner than [`render`](crate::render) does, which
+/// needs the scene.
+///
+/// # Errors
+/// [`RenderError::Size`].
+pub fn check_size((width, height): (u32, u32)) -> Result<(), RenderError> {
+    match u64::from(width) * u64::from(height) {
+        1..=MAX_PIXELS => Ok(()),
+        _ => Err(RenderError::Size(width, height)),
+    }
+}
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]

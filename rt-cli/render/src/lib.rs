@@ -18,7 +18,7 @@ pub use exec::{KindReport, Progress, Report, Silent, render};
 pub use film::Film;
 pub use fit::fitted_view;
 pub use integrate::{Integrator, RayKind};
-pub use job::{Job, RenderError};
+pub use job::{Job, RenderError, check_size};
 pub use rt_kernels::{Exec, PacketSize};
 pub use simd4::{Level, LevelError};
 pub use world::{AccelKind, World};

@@ -17,6 +17,7 @@ pub mod spd;
 mod text;
 mod triangulate;
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 pub use diag::{Diagnostic, Error};
@@ -24,8 +25,9 @@ pub use model::{Facts, Light, Material, Mesh, Scene, Skipped, Sphere, Triangle, 
 
 /// Opens a scene by name: `spd:NAME[:SIZE]` is generated, anything else is a file whose extension
 /// tells its format.
-pub fn open(name: &str) -> Result<Scene, Error> {
-    if let Some(procedure) = name.strip_prefix("spd:") {
+pub fn open(name: impl AsRef<OsStr>) -> Result<Scene, Error> {
+    let name = name.as_ref();
+    if let Some(procedure) = name.to_str().and_then(|name| name.strip_prefix("spd:")) {
         return spd::open(procedure);
     }
     let path = Path::new(name);

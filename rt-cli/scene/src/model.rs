@@ -45,9 +45,9 @@ impl Scene {
         let flat = self.mesh.triangles.iter().filter(|triangle| self.mesh.area(triangle) == 0.0);
         match flat.count() {
             0 => {}
-            1 => self.facts.warnings.push("1 triangle has no area and cannot be seen".to_owned()),
+            1 => self.facts.warnings.push("1 triangle has no area".to_owned()),
             count => {
-                let warning = format!("{count} triangles have no area and cannot be seen");
+                let warning = format!("{count} triangles have no area");
                 self.facts.warnings.push(warning);
             }
         }

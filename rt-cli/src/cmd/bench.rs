@@ -1,5 +1,6 @@
 //! `rt bench`.
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 use glam::Vec3;
@@ -56,8 +57,9 @@ fn scalar() -> Level {
 }
 
 /// About how long the name of a scene will be once it is opened.
-fn name_width(name: &str) -> usize {
-    let size = if name.starts_with("spd:") { ":10".len() } else { 0 };
+fn name_width(name: &OsStr) -> usize {
+    let computed = name.as_encoded_bytes().starts_with(b"spd:");
+    let size = if computed { ":10".len() } else { 0 };
     Path::new(name).file_name().map_or(0, |base| base.to_string_lossy().chars().count()) + size
 }
 

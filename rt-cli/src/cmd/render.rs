@@ -1,7 +1,7 @@
 //! `rt render`.
 
 use glam::Vec3;
-use rt_render::{Job, World, fitted_view};
+use rt_render::{Job, World, check_size, fitted_view};
 use rt_scene::View;
 
 use crate::args::{PictureArgs, RenderArgs};
@@ -28,6 +28,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
     if stats.as_ref().is_some_and(|stats| stats.is_same(&output)) {
         return Err(Error::SameOutput(args.output.clone()));
     }
+
+    args.picture.size.map_or(Ok(()), check_size)?;
 
     let mut scene = rt_scene::open(&args.scene)?;
     if !args.quiet {

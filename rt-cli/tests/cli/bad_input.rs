@@ -218,7 +218,7 @@ fn there_are_enough_of_both() {
 }
 
 #[test]
-fn points_and_extremes_have_their_triangles_and_a_picture_or_a_message() {
+fn points_and_extremes_have_their_triangles_and_a_picture() {
     let scratch = Scratch::new();
     for (name, content) in [
         ("point.obj", "v 1 2 3\nf 1 1 1\n"),
@@ -231,11 +231,8 @@ fn points_and_extremes_have_their_triangles_and_a_picture_or_a_message() {
         assert_eq!(info["triangles"], 1, "{name}");
         let names = scratch.names();
         let run = scratch.rt(&["render", name, "-o", "a.png", "-s", "8x8"]);
-        if run.code == 0 {
-            std::fs::remove_file(scratch.path("a.png")).unwrap();
-        } else {
-            assert!(run.exits(1).stderr.contains("error: the camera looks nowhere"));
-        }
+        run.exits(0);
+        std::fs::remove_file(scratch.path("a.png")).unwrap();
         assert_eq!(scratch.names(), names);
     }
 }

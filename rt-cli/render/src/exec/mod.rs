@@ -17,7 +17,7 @@ use rt_kernels::camera::Pinhole;
 
 use crate::fit::half_height;
 use crate::integrate::{Scratch, integrate};
-use crate::job::MAX_PIXELS;
+use crate::job::check_size;
 use crate::{Film, Job, RenderError, World};
 
 /// Who wants to know how far the work is. Called from all threads.
@@ -44,9 +44,7 @@ pub fn render(
     progress: &dyn Progress,
 ) -> Result<(Film, Report), RenderError> {
     let (width, height) = job.size;
-    if width == 0 || height == 0 || u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(RenderError::Size(width, height));
-    }
+    check_size(job.size)?;
     let camera = camera(world, job)?;
     let lights = tile::lights(world, job);
     let depth_range = tile::depth_range(world, camera.eye());
