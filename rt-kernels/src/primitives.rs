@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use glam::Vec3;
 use simd4::{Lanes, Simd, SimdF32, spec};
 
 use crate::geom::{Aabb, PADDING, Sphere, Triangle};
@@ -47,19 +48,28 @@ impl Primitives {
         if self.len() > MAX_PRIMITIVES {
             return Err(BuildError::TooMany { primitives: self.len(), limit: MAX_PRIMITIVES });
         }
-        for (prim, own) in self.own_boxes().enumerate() {
-            if !own.is_finite() {
-                return Err(BuildError::NotFinite { prim });
-            }
-            if own.axes.as_flattened().iter().any(|x| x.abs() > MAX_COORDINATE) {
-                return Err(BuildError::OutOfRange { prim });
+        for (prim, triangle) in self.triangles.iter().enumerate() {
+            check_points(prim, &triangle.corners)?;
+        }
+        for (prim, sphere) in (self.triangles.len()..).zip(&self.spheres) {
+            check_points(prim, &[sphere.center, Vec3::splat(sphere.radius)])?;
+            if sphere.radius <= 0.0 {
+                return Err(BuildError::NoRadius { prim });
             }
         }
-        match self.spheres.iter().position(|sphere| sphere.radius <= 0.0) {
-            Some(i) => Err(BuildError::NoRadius { prim: self.triangles.len() + i }),
-            None => Ok(()),
-        }
+        Ok(())
     }
+}
+
+/// Refuses a primitive with a coordinate that is not finite or too large.
+fn check_points(prim: usize, points: &[Vec3]) -> Result<(), BuildError> {
+    if !points.iter().all(|point| point.is_finite()) {
+        return Err(BuildError::NotFinite { prim });
+    }
+    if points.iter().any(|point| point.abs().max_element() > MAX_COORDINATE) {
+        return Err(BuildError::OutOfRange { prim });
+    }
+    Ok(())
 }
 
 /// A triangle as leaves hold it: 48 bytes, three blocks of 16 (Geimer and Müller 2003,

@@ -1,5 +1,6 @@
 //! Every accelerator gives the same bits as every other, however it is run.
 
+use glam::Vec3;
 use proptest::prelude::*;
 use rt_kernels::{Accelerator, Brute, Bvh, Exec, Hits, PacketSize, Primitives, Ray, Rays};
 use rt_kernels::{Sequential, Stats};
@@ -108,27 +109,30 @@ fn batches_do_not_matter() {
     });
 }
 
-/// Closed meshes in planes across the axes, where the distance of many a hit would fall before the
-/// entry into its own box, were it not held there.
+/// Closed meshes in planes across the axes, and flat ones full of needles seen from their edges,
+/// where the distance of many a hit would fall before the entry into its own box, were it not held
+/// there.
 #[test]
 fn meshes_aimed_at_edges_and_vertices() {
-    let ball = Mesh::icosphere(2);
-    let far = glam::Vec3::new(1000.0, -70000.0, 0.0);
-    let meshes = [
-        ("a cube", Mesh::cube(6)),
-        ("a ball", ball.clone()),
-        ("a cube, far", Mesh::cube(6).map(|v| v + far)),
-        ("a flat ball, far", ball.map(|v| v * glam::Vec3::new(1.0, 1e-3, 1.0) + far)),
-    ];
+    let far = Vec3::new(1000.0, -70000.0, 0.0);
     let mut random = Random::new(1);
-    for (name, mesh) in meshes {
+    let spiky = Mesh::icosphere(2).map(|v| v * (1.0 + 0.2 * random.signed()));
+    let flat = Vec3::new(1.0, 1e-6, 1.0);
+    let meshes = [
+        ("a cube", Mesh::cube(6), Vec3::ONE),
+        ("a cube, far", Mesh::cube(6).map(|v| v + far), Vec3::ONE),
+        ("spiky", spiky.clone(), Vec3::ONE),
+        ("spiky and flat", spiky.clone().map(|v| v * flat), flat),
+        ("spiky and flat, far", spiky.map(|v| v * 100.0 * flat + far), flat),
+    ];
+    for (name, mesh, shape) in meshes {
         let (scene, edges) = (mesh.primitives(), mesh.edges());
-        let rays: Rays = (0..rays(4_000))
+        let rays: Rays = (0..rays(6_000))
             .map(|i| {
                 let [a, b] = random.pick(&edges).map(|i| mesh.vertices[i as usize]);
                 let target = if i % 2 == 0 { a } else { aim::between(a, b, random.unit()) };
-                let reach = random.magnitude(-2, 2);
-                aim::at(mesh.vertices[0] + random.in_cube() * reach, target)
+                let reach = random.magnitude(-2, 4);
+                aim::at(mesh.vertices[0] + random.in_cube() * shape * reach, target)
             })
             .collect();
         let hits = one_answer(&scene, &rays);

@@ -37,6 +37,13 @@ fn triangle(kind: usize, size: f32, random: &mut Random) -> [Vec3; 3] {
                 corner[axis] = along;
             }
         }
+        // An edge along one axis or two, and one plane across another: sides of the box, and edges.
+        5 => {
+            let axis = random.below(3);
+            b[axis] = a[axis];
+            b[(axis + 1) % 3] = random.pick(&[a, b])[(axis + 1) % 3];
+            c[(axis + 1) % 3] = random.pick(&[a, c])[(axis + 1) % 3];
+        }
         // On a grid: exact differences, and edges that rays meet exactly.
         _ => corners = [(); 3].map(|()| (random.in_cube() * 4.0).round() * (size / 4.0)),
     }
@@ -59,20 +66,19 @@ fn ray(corners: [Vec3; 3], random: &mut Random) -> Ray {
             aim::between(a, b, random.unit())
                 + random.in_cube() * (extent * random.magnitude(-27, -7))
         }
-        // A corner, one unit in the last place off: the silhouette of the box.
+        // One unit in the last place off a corner or an edge: perhaps just outside the box.
         4 => {
             let axis = random.below(3);
-            let mut corner = a;
-            let least = extent * power(-24);
-            corner[axis] = random.pick(&[
-                a[axis].next_up().max(a[axis] + least),
-                a[axis].next_down().min(a[axis] - least),
-            ]);
-            corner
+            let mut target =
+                if random.bits() & 1 == 0 { a } else { aim::between(a, b, random.unit()) };
+            let (at, least) = (target[axis], extent * power(-24));
+            target[axis] =
+                random.pick(&[at.next_up().max(at + least), at.next_down().min(at - least)]);
+            target
         }
         _ => a + random.in_cube() * extent,
     };
-    let origin = match random.below(8) {
+    let origin = match random.below(10) {
         // On the triangle.
         0 => random.pick(&corners),
         1 => aim::between(a, c, random.unit()),
@@ -88,6 +94,8 @@ fn ray(corners: [Vec3; 3], random: &mut Random) -> Ray {
             }
             origin
         }
+        // So near that corners are much farther away than the target is.
+        5 | 6 => target + random.direction() * (extent * random.magnitude(-22, -2)),
         // From a thousandth of the extent to a million.
         _ => target + random.direction() * (extent * random.magnitude(-10, 20)),
     };
@@ -146,7 +154,7 @@ fn own_boxes_take_no_hit_away() {
     let batch = 64;
     for i in 0..rays(3_000_000) / batch {
         let size = random.magnitude(-16, 16).abs();
-        let mut corners = triangle(i % 6, size, &mut random);
+        let mut corners = triangle(i % 7, size, &mut random);
         // Near the origin, or far from it by up to a million extents.
         if random.bits() & 1 == 0 {
             let away = random.in_cube() * (size * random.magnitude(0, 19));

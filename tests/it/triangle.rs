@@ -131,6 +131,35 @@ fn distances_and_weights_are_accurate_far_from_the_origin() {
     weights.within("weights", 3.0, 20.0);
 }
 
+/// Both ends of the interval belong to it, both sides are hit, and `t` counts lengths of `dir`.
+#[test]
+fn intervals_are_closed() {
+    let corners = [Vec3::new(0.0, 0.0, 8.0), Vec3::new(4.0, 0.0, 8.0), Vec3::new(0.0, 4.0, 8.0)];
+    let ray = Ray::new(Vec3::new(1.0, 2.0, 0.0), Vec3::Z);
+    let back = Ray::new(Vec3::new(1.0, 2.0, 16.0), Vec3::NEG_Z);
+    let cases = [
+        (ray, Some(8.0)),
+        (back, Some(8.0)),
+        (Ray { dir: Vec3::Z * 0.5, ..ray }, Some(16.0)),
+        (Ray { tmin: 8.0, ..ray }, Some(8.0)),
+        (Ray { tmin: 8f32.next_up(), ..ray }, None),
+        (Ray { tmax: 8.0, ..ray }, Some(8.0)),
+        (Ray { tmax: 8f32.next_down(), ..ray }, None),
+        (Ray { tmin: 8.0, tmax: 8.0, ..ray }, Some(8.0)),
+        (Ray { origin: Vec3::new(1.0, 2.0, 8.0), ..ray }, Some(0.0)),
+        (Ray { origin: Vec3::new(1.0, 2.0, 8.0), tmax: 0.0, ..ray }, Some(0.0)),
+        (Ray { dir: Vec3::NEG_Z, ..ray }, None),
+        (Ray { origin: Vec3::new(3.0, 2.0, 0.0), ..ray }, None),
+    ];
+    let rays: Rays = cases.iter().map(|(ray, _)| *ray).collect();
+    for exec in ways() {
+        for (hit, (ray, want)) in hits(corners, &rays, exec).into_iter().zip(cases) {
+            let want = want.map(|t| (t, 0.25, 0.5));
+            assert_eq!(hit.map(|hit| (hit.t, hit.u, hit.v)), want, "{exec:?}: {ray:?}");
+        }
+    }
+}
+
 /// With two equal corners or three, a triangle is never hit, wherever the ray comes from.
 #[test]
 fn triangles_with_equal_corners_are_never_hit() {

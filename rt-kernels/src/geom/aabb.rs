@@ -93,9 +93,4 @@ impl Aabb {
             }),
         }
     }
-
-    /// Whether every coordinate is finite.
-    pub fn is_finite(&self) -> bool {
-        self.axes.as_flattened().iter().all(|x| x.is_finite())
-    }
 }

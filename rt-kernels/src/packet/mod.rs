@@ -29,7 +29,7 @@ pub struct Packet<V> {
     pub inv: Vec3<V>,
     /// The least `t`; +inf in lanes that hit nothing.
     pub tmin: V,
-    /// The greatest `t`; −inf in lanes that hit nothing.
+    /// The greatest `t`, never +inf: nothing is hit there. −inf in lanes that hit nothing.
     pub tmax: V,
 }
 
@@ -52,7 +52,7 @@ impl<V: SimdF32> Packet<V> {
             dir,
             inv: Vec3::new(one / dir.x, one / dir.y, one / dir.z),
             tmin: hits.select(tmin, infinity),
-            tmax: hits.select(tmax, -infinity),
+            tmax: hits.select(tmax.min(V::splat(s, f32::MAX)), -infinity),
         }
     }
 

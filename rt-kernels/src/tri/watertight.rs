@@ -73,9 +73,9 @@ pub fn intersect<V: SimdF32, F: Frame<V>, Q: Query<V>>(
 
     let [u, v, w] = edges;
     let det = u + v + w;
-    // Without area all is 0, and the NaN that results is within no limit.
+    // Without area t is NaN, or infinite where the area vanishes in the reciprocal: beyond any limit.
     let inv_det = V::splat(s, 1.0) / det;
-    let t = (u * a.z + v * b.z + w * c.z) * shear.z * inv_det;
+    let t = (u * a.z + v * b.z + w * c.z) * inv_det * shear.z;
     let candidates = inside & packet.tmin.le(t) & t.le(query.limit());
     if candidates.none() {
         return;
