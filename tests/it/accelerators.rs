@@ -123,7 +123,7 @@ fn meshes_aimed_at_edges_and_vertices() {
         ("a cube, far", Mesh::cube(6).map(|v| v + far), Vec3::ONE),
         ("spiky", spiky.clone(), Vec3::ONE),
         ("spiky and flat", spiky.clone().map(|v| v * flat), flat),
-        ("spiky and flat, far", spiky.map(|v| v * 100.0 * flat + far), flat),
+        ("spiky and flat, aside", spiky.map(|v| v * 100.0 * flat + Vec3::X * 1000.0), 100.0 * flat),
     ];
     for (name, mesh, shape) in meshes {
         let (scene, edges) = (mesh.primitives(), mesh.edges());

@@ -41,8 +41,8 @@ fn triangle(kind: usize, size: f32, random: &mut Random) -> [Vec3; 3] {
         5 => {
             let axis = random.below(3);
             b[axis] = a[axis];
-            b[(axis + 1) % 3] = random.pick(&[a, b])[(axis + 1) % 3];
-            c[(axis + 1) % 3] = random.pick(&[a, c])[(axis + 1) % 3];
+            b[(axis + 1) % 3] = random.pick(&[*a, *b])[(axis + 1) % 3];
+            c[(axis + 1) % 3] = random.pick(&[*a, *c])[(axis + 1) % 3];
         }
         // On a grid: exact differences, and edges that rays meet exactly.
         _ => corners = [(); 3].map(|()| (random.in_cube() * 4.0).round() * (size / 4.0)),
