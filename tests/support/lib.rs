@@ -26,3 +26,8 @@ pub fn cases() -> u32 {
 pub fn rays(n: usize) -> usize {
     (n as u64 * u64::from(cases())).div_ceil(256) as usize
 }
+
+/// The examples of the README, which are to work as they stand.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;
