@@ -40,6 +40,8 @@ fn triangle(kind: usize, size: f32, random: &mut Random) -> [Vec3; 3] {
         // An edge along one axis or two, and one plane across another: sides of the box, and edges.
         5 => {
             let axis = random.below(3);
+            // Where a coordinate is near 0, its last place is worth nothing.
+            a[axis] *= random.pick(&[1.0, power(-12), 0.0]);
             b[axis] = a[axis];
             b[(axis + 1) % 3] = random.pick(&[*a, *b])[(axis + 1) % 3];
             c[(axis + 1) % 3] = random.pick(&[*a, *c])[(axis + 1) % 3];
@@ -66,12 +68,12 @@ fn ray(corners: [Vec3; 3], random: &mut Random) -> Ray {
             aim::between(a, b, random.unit())
                 + random.in_cube() * (extent * random.magnitude(-27, -7))
         }
-        // One unit in the last place off a corner or an edge: perhaps just outside the box.
+        // Hardly off a corner or an edge: perhaps just outside the box.
         4 => {
             let axis = random.below(3);
             let mut target =
                 if random.bits() & 1 == 0 { a } else { aim::between(a, b, random.unit()) };
-            let (at, least) = (target[axis], extent * power(-24));
+            let (at, least) = (target[axis], extent * random.magnitude(-28, -23).abs());
             target[axis] =
                 random.pick(&[at.next_up().max(at + least), at.next_down().min(at - least)]);
             target
@@ -99,7 +101,12 @@ fn ray(corners: [Vec3; 3], random: &mut Random) -> Ray {
         // From a thousandth of the extent to a million.
         _ => target + random.direction() * (extent * random.magnitude(-10, 20)),
     };
-    aim::paced(aim::at(origin, target), random.below(5) as i32 - 2)
+    let mut ray = aim::paced(aim::at(origin, target), random.below(5) as i32 - 2);
+    if random.below(3) == 0 {
+        // Past the target by less than a unit in the last place of its coordinates.
+        ray.dir *= 1.0 + random.in_cube() * random.magnitude(-24, -12);
+    }
+    ray
 }
 
 /// Rays for which the naive test and the kernel could differ, by what they are.
