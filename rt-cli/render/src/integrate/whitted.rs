@@ -77,6 +77,11 @@ pub(super) fn integrate(
     }
 }
 
+/// The direction of a reflected ray.
+fn mirror(dir: Vec3, normal: Vec3) -> Vec3 {
+    dir - normal * (2.0 * dir.dot(normal))
+}
+
 impl Scratch {
     /// Adds the light of every light to the surfaces met, where no shadow falls.
     fn light(&mut self, job: &TileJob<'_>, colors: &mut [Vec3], tally: &mut Tally) {
@@ -128,11 +133,10 @@ impl Scratch {
             if weight.max_element() < LEAST_WEIGHT {
                 continue;
             }
-            let mirrored = *dir - surface.normal * (2.0 * dir.dot(surface.normal));
-            // A bent normal may send a ray into the surface; there is nothing to see there.
-            if mirrored.dot(surface.true_normal) <= 0.0 {
-                continue;
-            }
+            let mirrored = mirror(*dir, surface.normal);
+            // A bent normal may send the ray into the surface, where there is nothing to see.
+            let leaves = mirrored.dot(surface.true_normal) > 0.0;
+            let mirrored = if leaves { mirrored } else { mirror(*dir, surface.true_normal) };
             rays.push(Ray::new(surface.leave, mirrored));
             self.paths.push(Path { pixel: path.pixel, weight });
         }
