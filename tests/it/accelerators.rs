@@ -2,10 +2,12 @@
 
 use glam::Vec3;
 use proptest::prelude::*;
+use rt_kernels::geom::Triangle;
 use rt_kernels::{Accelerator, Brute, Bvh, Exec, Hits, PacketSize, Primitives, Ray, Rays};
 use rt_kernels::{Sequential, Stats};
 use rt_tests::mesh::Mesh;
-use rt_tests::random::Random;
+use rt_tests::oracle::entry;
+use rt_tests::random::{Random, power};
 use rt_tests::strategies::{RayPlan, config, is_in_range, is_valid, ray, scene};
 use rt_tests::trace::{Bits, any as found_any, bits, closest, closest_bits, ways};
 use rt_tests::{aim, rays};
@@ -109,9 +111,9 @@ fn batches_do_not_matter() {
     });
 }
 
-/// Closed meshes in planes across the axes, and flat ones full of needles seen from their edges,
-/// where the distance of many a hit would fall before the entry into its own box, were it not held
-/// there.
+/// Closed meshes in planes across the axes, and flat ones full of needles, from near and far: the
+/// distance of many a hit would fall before the entry into its own box, were it not held there, and
+/// what is found would depend on what was found before.
 #[test]
 fn meshes_aimed_at_edges_and_vertices() {
     let far = Vec3::new(1000.0, -70000.0, 0.0);
@@ -131,7 +133,7 @@ fn meshes_aimed_at_edges_and_vertices() {
             .map(|i| {
                 let [a, b] = random.pick(&edges).map(|i| mesh.vertices[i as usize]);
                 let target = if i % 2 == 0 { a } else { aim::between(a, b, random.unit()) };
-                let reach = random.magnitude(-2, 4);
+                let reach = random.magnitude(-2, 16);
                 aim::at(mesh.vertices[0] + random.in_cube() * shape * reach, target)
             })
             .collect();
@@ -139,4 +141,53 @@ fn meshes_aimed_at_edges_and_vertices() {
         let share = hits.iter().flatten().count() as f64 / hits.len() as f64;
         assert!(share > 0.5, "{name}: only {share} of the rays hit");
     }
+}
+
+/// A needle, seen from its edge and askew to all axes, whose hit rounding would move to before the
+/// entry into its own box; and just before the entry, a screen that is visited first. A hit in
+/// front of its box would be found by brute force, and be hidden from a hierarchy by the screen.
+#[test]
+fn a_screen_hides_the_boxes_behind_it() {
+    let mut random = Random::new(2);
+    let mut tried = 0;
+    let (right, up) = (Vec3::new(0.8, 0.36, -0.48), Vec3::new(-0.6, 0.48, -0.64));
+    let thin = |v: Vec3| right * v.x + up * v.y + right.cross(up) * (v.z * 1e-7);
+    for _ in 0..rays(2_000) {
+        let [a, b] = [random.in_cube(), random.in_cube()];
+        let needle = Triangle { corners: [a, b, b + random.in_cube() * 0.1].map(thin) };
+        let [a, b, _] = needle.corners;
+        let rays: Rays = (0..64)
+            .map(|_| aim::at(thin(random.in_cube()), aim::between(a, b, random.unit())))
+            .collect();
+        let alone = Primitives { triangles: vec![needle], spheres: vec![] };
+        let alone = closest(&Brute::build(&alone).expect("in range"), plainest(), &rays);
+        for (i, hit) in alone.into_iter().enumerate() {
+            let ray = rays.get(i);
+            let Some(entry) = hit.map(|hit| hit.t).filter(|t| *t == entry(&ray, &needle.own_box()))
+            else {
+                continue;
+            };
+            tried += 1;
+            let nearer = entry * (1.0 - power(-2 - (tried % 16)));
+            let screen = screen(&ray, nearer, needle.own_box().extent().max_element());
+            let scene = Primitives {
+                triangles: vec![screen, screen, screen, screen, needle],
+                spheres: vec![],
+            };
+            one_answer(&scene, &[ray].into_iter().collect());
+        }
+    }
+    assert!(tried > 0, "no hit is held at the entry into its own box");
+}
+
+/// A triangle across the axis that the ray runs along most, at `t`, and larger than `extent`.
+fn screen(ray: &Ray, t: f32, extent: f32) -> Triangle {
+    let axis = ray.dir.abs().max_position();
+    let corner = |[u, v]: [f32; 2]| {
+        let mut corner = ray.at(t);
+        corner[(axis + 1) % 3] += u * extent;
+        corner[(axis + 2) % 3] += v * extent;
+        corner
+    };
+    Triangle { corners: [[-2.0, -2.0], [3.0, -1.0], [0.0, 3.0]].map(corner) }
 }

@@ -27,10 +27,11 @@ fn triangle(kind: usize, size: f32, random: &mut Random) -> [Vec3; 3] {
         2 => *c = *b + random.in_cube() * (size * power(-(random.below(24) as i32))),
         // Three corners nearly on a line.
         3 => *c = aim::between(*a, *b, random.unit()) + random.in_cube() * (size * 1e-6),
-        // A needle along an axis.
+        // A needle along an axis, perhaps thinner than the error of the kernel.
         4 => {
             let axis = random.below(3);
-            let width = power(-(random.below(24) as i32));
+            let least = power(-40) / size;
+            let width = power(-(random.below(36) as i32)).max(least);
             for corner in &mut corners {
                 let along = corner[axis];
                 *corner *= width;
