@@ -4,7 +4,7 @@ use glam::Vec3;
 use rt_kernels::geom::Sphere;
 use rt_kernels::{Brute, Exec, Hit, Primitives, Ray, Rays};
 use rt_tests::figures::Errors;
-use rt_tests::oracle::{ROUNDOFF, Roots, sphere, ulps};
+use rt_tests::oracle::{ROUNDOFF, Roots, entry, sphere, ulps};
 use rt_tests::random::Random;
 use rt_tests::trace::{closest, closest_bits, ways};
 use rt_tests::{aim, rays};
@@ -40,6 +40,11 @@ fn with_random(
         let brute = Brute::build(&scene).expect("in range");
         for (i, hit) in closest(&brute, exec, &rays).into_iter().enumerate() {
             let ray = rays.get(i);
+            let entry = entry(&ray, &ball.own_box());
+            assert!(
+                hit.is_none_or(|hit| hit.t >= entry),
+                "{hit:?} before {entry}: {ray:?}, {ball:?}"
+            );
             let distance = (ray.origin - center).as_dvec3().length() / f64::from(radius);
             judge(distance, ray, sphere(&ray, &ball), hit);
         }
