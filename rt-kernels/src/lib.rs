@@ -41,8 +41,8 @@
 //! # The range
 //!
 //! Coordinates up to 2^40 in magnitude, and directions whose greatest component is between 2^-20
-//! and 2^20, keep every product of the kernels finite; primitives larger than 2^-40 keep them from
-//! vanishing. A scene outside this range is brought in by an exact power of two before it is built.
+//! and 2^20, keep every product of the kernels finite; primitives whose widths, not only lengths, are
+//! greater than 2^-40 keep them from vanishing. A scene outside this range is brought in by an exact power of two before it is built.
 
 mod brute;
 pub mod bvh;

@@ -4,7 +4,8 @@ use glam::Vec3;
 
 use super::Aabb;
 
-/// Three corners. A triangle without area is never hit.
+/// Three corners. A triangle with two equal ones is never hit; one whose corners are merely in line
+/// may be, by rays within rounding of that line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Triangle {

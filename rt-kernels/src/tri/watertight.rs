@@ -23,8 +23,9 @@
 //! `t` is the mean of the corners' distances, weighted by the edge functions, or the entry into the
 //! triangle's own box where that is greater.
 //!
-//! **Degenerate inputs.** A triangle without area, seen from the ray, is not hit: its edge functions
-//! sum to 0. Its neighbours share its edges and take the ray.
+//! **Degenerate inputs.** A triangle without area, seen from the ray after the shear, is not hit: its
+//! edge functions sum to 0. Its neighbours share its edges and take the ray. An origin within about
+//! one unit in the last place of the surface has no side: whether it is met at `t` = 0 is rounding.
 //!
 //! **Operations**: 18 subtractions, 12 multiplications, 4 minima and maxima and 2 comparisons to the
 //! first rejection; then 4 multiplications, 4 additions, a division, and for a candidate the own
