@@ -74,15 +74,21 @@ mod simd;
 pub mod spec;
 mod types;
 
-pub use arch::native::{f32x4, f32x8, i32x4, i32x8, mask32x4, mask32x8, u32x4, u32x8};
+pub use arch::native::{
+    f32x4, f32x8, f32x16, i32x4, i32x8, i32x16, mask32x4, mask32x8, mask32x16, u32x4, u32x8, u32x16,
+};
 pub use arch::tokens::*;
 pub use level::{Level, LevelError};
 pub use simd::{Guaranteed, Simd};
-pub use types::{Halves, Lanes, SimdF32, SimdI32, SimdMask, SimdU32};
+pub use types::{
+    Element, Halves, LaneArray, Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Swizzle, Wide,
+};
 
 pub use arch::scalar;
 
 /// All traits and [`Level`]: what a file that writes kernels imports.
 pub mod prelude {
-    pub use crate::{Guaranteed, Lanes, Level, Simd, SimdF32, SimdI32, SimdMask, SimdU32};
+    pub use crate::{
+        Guaranteed, Lanes, Level, Simd, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide,
+    };
 }

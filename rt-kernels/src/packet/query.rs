@@ -1,6 +1,6 @@
 //! What is asked of a packet.
 
-use simd4::{Lanes, SimdF32, SimdMask, SimdU32};
+use simd4::{Lanes, SimdF32, SimdMask};
 
 use super::{Hits, Packet};
 

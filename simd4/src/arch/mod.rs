@@ -45,6 +45,14 @@ pub(crate) mod native {
     pub type u32x8 = <Best as Simd>::u32x8;
     /// Eight lanes of truth, of the best level that the build guarantees.
     pub type mask32x8 = <Best as Simd>::mask32x8;
+    /// Sixteen lanes of `f32`, of the best level that the build guarantees.
+    pub type f32x16 = <Best as Simd>::f32x16;
+    /// Sixteen lanes of `i32`, of the best level that the build guarantees.
+    pub type i32x16 = <Best as Simd>::i32x16;
+    /// Sixteen lanes of `u32`, of the best level that the build guarantees.
+    pub type u32x16 = <Best as Simd>::u32x16;
+    /// Sixteen lanes of truth, of the best level that the build guarantees.
+    pub type mask32x16 = <Best as Simd>::mask32x16;
 }
 
 /// Runs intrinsics of the level whose token is at hand.

@@ -1,11 +1,13 @@
 //! The level of every machine: arrays, lane by lane as [`spec`](crate::spec) says. Seed paper:
 //! "FPU emulation" (Geimer and Müller 2003, Section 2).
 
-use core::array;
-
 use crate::simd::sealed::Sealed;
-use crate::types::{conversions, operators, unary_operator};
-use crate::{Guaranteed, Lanes, Level, Simd, SimdF32, SimdI32, SimdMask, SimdU32, spec};
+use crate::types::reduce::Fold;
+use crate::types::{Join, conversions, operators, unary_operator};
+use crate::{
+    Guaranteed, LaneArray, Lanes, Level, Simd, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide,
+    spec,
+};
 
 /// The token of the level `scalar`, which every CPU has.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +43,14 @@ impl Simd for Scalar {
     type i32x8 = i32x8;
     type u32x8 = u32x8;
     type mask32x8 = mask32x8;
+    type f32x16 = f32x16;
+    type i32x16 = i32x16;
+    type u32x16 = u32x16;
+    type mask32x16 = mask32x16;
     type f32s = f32x4;
+    type i32s = i32x4;
+    type u32s = u32x4;
+    type mask32s = mask32x4;
 
     #[inline(always)]
     fn level(self) -> Level {
@@ -73,18 +82,26 @@ mod names {
     pub type f32x4 = Vector<f32, 4>;
     /// Eight lanes of `f32`.
     pub type f32x8 = Vector<f32, 8>;
+    /// Sixteen lanes of `f32`.
+    pub type f32x16 = Vector<f32, 16>;
     /// Four lanes of `i32`.
     pub type i32x4 = Vector<i32, 4>;
     /// Eight lanes of `i32`.
     pub type i32x8 = Vector<i32, 8>;
+    /// Sixteen lanes of `i32`.
+    pub type i32x16 = Vector<i32, 16>;
     /// Four lanes of `u32`.
     pub type u32x4 = Vector<u32, 4>;
     /// Eight lanes of `u32`.
     pub type u32x8 = Vector<u32, 8>;
+    /// Sixteen lanes of `u32`.
+    pub type u32x16 = Vector<u32, 16>;
     /// Four lanes of truth.
     pub type mask32x4 = Mask<4>;
     /// Eight lanes of truth.
     pub type mask32x8 = Mask<8>;
+    /// Sixteen lanes of truth.
+    pub type mask32x16 = Mask<16>;
 }
 pub use names::*;
 
@@ -92,15 +109,39 @@ impl<T, const N: usize> Sealed for Vector<T, N> {}
 impl<const N: usize> Sealed for Mask<N> {}
 
 #[inline(always)]
-fn map2<A: Copy, B: Copy, R, const N: usize>(
+fn map<A: Copy, R: Copy + Send + Sync + 'static, const N: usize>(
     a: [A; N],
-    b: [B; N],
-    f: impl Fn(A, B) -> R,
+    f: impl Fn(A) -> R,
 ) -> [R; N] {
-    array::from_fn(
+    LaneArray::from_fn(
+        #[inline(always)]
+        |i| f(a[i]),
+    )
+}
+
+#[inline(always)]
+fn map2<A: Copy, R: Copy + Send + Sync + 'static, const N: usize>(
+    a: [A; N],
+    b: [A; N],
+    f: impl Fn(A, A) -> R,
+) -> [R; N] {
+    LaneArray::from_fn(
         #[inline(always)]
         |i| f(a[i], b[i]),
     )
+}
+
+/// Methods that apply a function to every lane.
+macro_rules! mapped {
+    ($($method:ident($($arg:ident),*) = $f:expr;)*) => {$(
+        #[inline(always)]
+        fn $method(self, $($arg: Self),*) -> Self {
+            Vector(LaneArray::from_fn(
+                #[inline(always)]
+                |i| $f(self.0[i], $($arg.0[i]),*),
+            ))
+        }
+    )*};
 }
 
 /// A type of numbers: its lanes, its operators and the trait of its element.
@@ -115,6 +156,10 @@ macro_rules! numbers {
             const LANES: usize = N;
 
             #[inline(always)]
+            fn token(self) -> Scalar {
+                Scalar::new()
+            }
+            #[inline(always)]
             fn splat(_: Scalar, x: $elem) -> Self {
                 Vector([x; N])
             }
@@ -126,15 +171,66 @@ macro_rules! numbers {
             fn to_array(self) -> [$elem; N] {
                 self.0
             }
+
+            mapped! {
+                min(b) = spec::min;
+                max(b) = spec::max;
+            }
+
+            #[inline(always)]
+            fn eq(self, b: Self) -> Mask<N> {
+                Mask(map2(self.0, b.0, |a, b| a == b))
+            }
+            #[inline(always)]
+            fn lt(self, b: Self) -> Mask<N> {
+                Mask(map2(self.0, b.0, |a, b| a < b))
+            }
+            #[inline(always)]
+            fn le(self, b: Self) -> Mask<N> {
+                Mask(map2(self.0, b.0, |a, b| a <= b))
+            }
             #[inline(always)]
             fn select(m: Mask<N>, a: Self, b: Self) -> Self {
-                Vector(array::from_fn(
+                Vector(LaneArray::from_fn(
                     #[inline(always)]
                     |i| spec::select(m.0[i], a.0[i], b.0[i]),
                 ))
             }
+            #[inline(always)]
+            fn reduce<F: Fold>(self) -> $elem {
+                let (mut a, mut n) = (self.0, N);
+                while n > 1 {
+                    n /= 2;
+                    let mut i = 0;
+                    while i < n {
+                        let [folded] = F::fold(Vector([a[i]]), Vector([a[i + n]])).0;
+                        a[i] = folded;
+                        i += 1;
+                    }
+                }
+                a[0]
+            }
         }
         conversions! { [const N: usize] Vector<$elem, N>, Scalar }
+        wide! { $elem, 4 + 4 = 8 }
+        wide! { $elem, 8 + 8 = 16 }
+    };
+}
+
+macro_rules! wide {
+    ($elem:ty, $half:literal + $other:literal = $lanes:literal) => {
+        impl Wide for Vector<$elem, $lanes> {
+            type Half = Vector<$elem, $half>;
+            #[inline(always)]
+            fn concat(low: Self::Half, high: Self::Half) -> Self {
+                Vector(Join::join(low.0, high.0))
+            }
+            #[inline(always)]
+            fn halves(self) -> (Self::Half, Self::Half) {
+                let (low, high) = Join::split(self.0);
+                (Vector(low), Vector(high))
+            }
+        }
     };
 }
 
@@ -148,61 +244,50 @@ operators! { [const N: usize] Vector<f32, N> {
     Mul mul MulAssign mul_assign |a, b| Vector(map2(a.0, b.0, |a, b| a * b));
     Div div DivAssign div_assign |a, b| Vector(map2(a.0, b.0, |a, b| a / b));
 }}
-unary_operator! { [const N: usize] Vector<f32, N> { Neg neg |a| Vector(a.0.map(|a| -a)) } }
+unary_operator! { [const N: usize] Vector<f32, N> { Neg neg |a| Vector(map(a.0, |a| -a)) } }
 
 impl<const N: usize> SimdF32 for Vector<f32, N> {
     type I32 = Vector<i32, N>;
     type U32 = Vector<u32, N>;
 
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Vector(self.0.map(spec::sqrt))
+    const FUSED: bool = false;
+
+    mapped! {
+        sqrt() = spec::sqrt;
+        abs() = spec::abs;
+        copysign(sign) = spec::copysign;
+        fused_mul_add(b, c) = spec::fused_mul_add;
     }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Vector(self.0.map(spec::abs))
-    }
-    #[inline(always)]
-    fn min(self, b: Self) -> Self {
-        Vector(map2(self.0, b.0, spec::min))
-    }
-    #[inline(always)]
-    fn max(self, b: Self) -> Self {
-        Vector(map2(self.0, b.0, spec::max))
-    }
-    #[inline(always)]
-    fn eq(self, b: Self) -> Mask<N> {
-        Mask(map2(self.0, b.0, |a, b| a == b))
-    }
-    #[inline(always)]
-    fn ne(self, b: Self) -> Mask<N> {
-        Mask(map2(self.0, b.0, |a, b| a != b))
-    }
-    #[inline(always)]
-    fn lt(self, b: Self) -> Mask<N> {
-        Mask(map2(self.0, b.0, |a, b| a < b))
-    }
-    #[inline(always)]
-    fn le(self, b: Self) -> Mask<N> {
-        Mask(map2(self.0, b.0, |a, b| a <= b))
-    }
+
     #[inline(always)]
     fn to_bits(self) -> Vector<u32, N> {
-        Vector(self.0.map(f32::to_bits))
+        Vector(map(self.0, f32::to_bits))
     }
     #[inline(always)]
     fn from_bits(bits: Vector<u32, N>) -> Self {
-        Vector(bits.0.map(f32::from_bits))
+        Vector(map(bits.0, f32::from_bits))
     }
     #[inline(always)]
     fn from_i32(i: Vector<i32, N>) -> Self {
-        Vector(i.0.map(|i| i as f32))
+        Vector(map(i.0, |i| i as f32))
+    }
+    #[inline(always)]
+    fn from_u32(u: Vector<u32, N>) -> Self {
+        Vector(map(u.0, |u| u as f32))
+    }
+    #[inline(always)]
+    fn to_i32(self) -> Vector<i32, N> {
+        Vector(map(self.0, |x| x as i32))
+    }
+    #[inline(always)]
+    fn to_u32(self) -> Vector<u32, N> {
+        Vector(map(self.0, |x| x as u32))
     }
 }
 
 /// The integers' operations are the same text for both signs.
 macro_rules! integers {
-    ($Trait:ident, $elem:ty) => {
+    ($elem:ty) => {
         operators! { [const N: usize] Vector<$elem, N> {
             Add add AddAssign add_assign |a, b| Vector(map2(a.0, b.0, <$elem>::wrapping_add));
             Sub sub SubAssign sub_assign |a, b| Vector(map2(a.0, b.0, <$elem>::wrapping_sub));
@@ -211,37 +296,53 @@ macro_rules! integers {
             BitOr bitor BitOrAssign bitor_assign |a, b| Vector(map2(a.0, b.0, |a, b| a | b));
             BitXor bitxor BitXorAssign bitxor_assign |a, b| Vector(map2(a.0, b.0, |a, b| a ^ b));
         }}
+        unary_operator! { [const N: usize] Vector<$elem, N> { Not not |a| Vector(map(a.0, |a| !a)) } }
 
-        impl<const N: usize> $Trait for Vector<$elem, N> {
+        impl<const N: usize> SimdInt for Vector<$elem, N> {
             #[inline(always)]
-            fn min(self, b: Self) -> Self {
-                Vector(map2(self.0, b.0, Ord::min))
+            fn shl(self, n: u32) -> Self {
+                Vector(map(self.0, |a| spec::shl(a as u32, n) as $elem))
             }
             #[inline(always)]
-            fn max(self, b: Self) -> Self {
-                Vector(map2(self.0, b.0, Ord::max))
-            }
-            #[inline(always)]
-            fn eq(self, b: Self) -> Mask<N> {
-                Mask(map2(self.0, b.0, |a, b| a == b))
-            }
-            #[inline(always)]
-            fn lt(self, b: Self) -> Mask<N> {
-                Mask(map2(self.0, b.0, |a, b| a < b))
+            fn shr(self, n: u32) -> Self {
+                Vector(map(self.0, |a| spec::shr(a as u32, n) as $elem))
             }
         }
     };
 }
 
-integers!(SimdI32, i32);
-integers!(SimdU32, u32);
+integers!(i32);
+integers!(u32);
+
+unary_operator! { [const N: usize] Vector<i32, N> {
+    Neg neg |a| Vector(map(a.0, i32::wrapping_neg))
+}}
+
+impl<const N: usize> SimdI32 for Vector<i32, N> {
+    type U32 = Vector<u32, N>;
+
+    #[inline(always)]
+    fn sar(self, n: u32) -> Self {
+        Vector(map(self.0, |a| spec::sar(a, n)))
+    }
+    #[inline(always)]
+    fn to_u32(self) -> Vector<u32, N> {
+        Vector(map(self.0, |a| a as u32))
+    }
+    #[inline(always)]
+    fn from_u32(u: Vector<u32, N>) -> Self {
+        Vector(map(u.0, |a| a as i32))
+    }
+}
+
+impl<const N: usize> SimdU32 for Vector<u32, N> {}
 
 operators! { [const N: usize] Mask<N> {
     BitAnd bitand BitAndAssign bitand_assign |a, b| Mask(map2(a.0, b.0, |a, b| a & b));
     BitOr bitor BitOrAssign bitor_assign |a, b| Mask(map2(a.0, b.0, |a, b| a | b));
     BitXor bitxor BitXorAssign bitxor_assign |a, b| Mask(map2(a.0, b.0, |a, b| a ^ b));
 }}
-unary_operator! { [const N: usize] Mask<N> { Not not |a| Mask(a.0.map(|a| !a)) } }
+unary_operator! { [const N: usize] Mask<N> { Not not |a| Mask(map(a.0, |a| !a)) } }
 
 impl<const N: usize> SimdMask for Mask<N> {
     type Simd = Scalar;
@@ -249,6 +350,10 @@ impl<const N: usize> SimdMask for Mask<N> {
 
     const LANES: usize = N;
 
+    #[inline(always)]
+    fn token(self) -> Scalar {
+        Scalar::new()
+    }
     #[inline(always)]
     fn splat(_: Scalar, b: bool) -> Self {
         Mask([b; N])

@@ -1,6 +1,9 @@
 //! Twice the lanes out of two registers, for levels whose registers are narrower.
 
-use super::{Lanes, SimdF32, SimdI32, SimdMask, SimdU32, operators, unary_operator};
+use super::reduce::Fold;
+use super::{
+    LaneArray, Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide, operators, unary_operator,
+};
 use crate::Guaranteed;
 use crate::simd::sealed::Sealed;
 
@@ -11,43 +14,81 @@ pub struct Halves<V>(V, V);
 impl<V> Sealed for Halves<V> {}
 
 /// Arrays that join to one of twice the length.
-pub trait Join: Copy {
+pub trait Join<T>: LaneArray<T> {
     /// The array of twice the length.
-    type Joined: Copy;
+    type Joined: LaneArray<T>;
     /// `low` first.
     fn join(low: Self, high: Self) -> Self::Joined;
     /// The two halves.
     fn split(joined: Self::Joined) -> (Self, Self);
 }
 
-impl<T: Copy> Join for [T; 4] {
-    type Joined = [T; 8];
-    #[inline(always)]
-    fn join(a: Self, b: Self) -> [T; 8] {
-        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]
-    }
-    #[inline(always)]
-    fn split(j: [T; 8]) -> (Self, Self) {
-        ([j[0], j[1], j[2], j[3]], [j[4], j[5], j[6], j[7]])
-    }
+macro_rules! join {
+    ($half:literal + $other:literal) => {
+        impl<T: Copy + Send + Sync + 'static> Join<T> for [T; $half] {
+            type Joined = [T; $half + $other];
+            #[inline(always)]
+            fn join(low: Self, high: Self) -> Self::Joined {
+                LaneArray::from_fn(
+                    #[inline(always)]
+                    |i| if i < $half { low[i] } else { high[i - $half] },
+                )
+            }
+            #[inline(always)]
+            fn split(joined: Self::Joined) -> (Self, Self) {
+                (
+                    LaneArray::from_fn(
+                        #[inline(always)]
+                        |i| joined[i],
+                    ),
+                    LaneArray::from_fn(
+                        #[inline(always)]
+                        |i| joined[i + $half],
+                    ),
+                )
+            }
+        }
+    };
 }
 
-impl<V: Lanes> Lanes for Halves<V>
+join!(4 + 4);
+join!(8 + 8);
+
+/// Methods that do in each half what they do in the whole.
+macro_rules! halved {
+    ($($method:ident($($arg:ident),*);)*) => {$(
+        #[inline(always)]
+        fn $method(self, $($arg: Self),*) -> Self {
+            Halves(self.0.$method($($arg.0),*), self.1.$method($($arg.1),*))
+        }
+    )*};
+}
+
+/// The same for comparisons.
+macro_rules! halved_comparisons {
+    ($($method:ident)*) => {$(
+        #[inline(always)]
+        fn $method(self, b: Self) -> Self::Mask {
+            Halves(self.0.$method(b.0), self.1.$method(b.1))
+        }
+    )*};
+}
+
+impl<V: Lanes<Array: Join<V::Elem>>> Lanes for Halves<V>
 where
-    V::Array: Join<
-        Joined: AsRef<[V::Elem]>
-                    + AsMut<[V::Elem]>
-                    + for<'a> TryFrom<&'a [V::Elem], Error = core::array::TryFromSliceError>,
-    >,
-    <V::Mask as SimdMask>::Array: Join<Joined: AsRef<[bool]> + AsMut<[bool]>>,
+    V::Mask: SimdMask<Array: Join<bool>>,
 {
     type Simd = V::Simd;
     type Elem = V::Elem;
-    type Array = <V::Array as Join>::Joined;
+    type Array = <V::Array as Join<V::Elem>>::Joined;
     type Mask = Halves<V::Mask>;
 
     const LANES: usize = 2 * V::LANES;
 
+    #[inline(always)]
+    fn token(self) -> Self::Simd {
+        self.0.token()
+    }
     #[inline(always)]
     fn splat(s: Self::Simd, x: Self::Elem) -> Self {
         Halves(V::splat(s, x), V::splat(s, x))
@@ -61,53 +102,80 @@ where
     fn to_array(self) -> Self::Array {
         Join::join(self.0.to_array(), self.1.to_array())
     }
+
+    halved! {
+        min(b);
+        max(b);
+    }
+    halved_comparisons!(eq ne lt le gt ge);
+
     #[inline(always)]
     fn select(m: Self::Mask, a: Self, b: Self) -> Self {
         Halves(V::select(m.0, a.0, b.0), V::select(m.1, a.1, b.1))
+    }
+    #[inline(always)]
+    fn zip(self, other: Self) -> (Self, Self) {
+        let (low, high) = (self.0.zip(other.0), self.1.zip(other.1));
+        (Halves(low.0, low.1), Halves(high.0, high.1))
+    }
+    #[inline(always)]
+    fn unzip(self, other: Self) -> (Self, Self) {
+        let (a, b) = (self.0.unzip(self.1), other.0.unzip(other.1));
+        (Halves(a.0, b.0), Halves(a.1, b.1))
+    }
+    #[inline(always)]
+    fn reduce<F: Fold>(self) -> Self::Elem {
+        F::fold(self.0, self.1).reduce::<F>()
+    }
+}
+
+impl<V: Lanes<Array: Join<V::Elem>>> Wide for Halves<V>
+where
+    V::Mask: SimdMask<Array: Join<bool>>,
+{
+    type Half = V;
+
+    #[inline(always)]
+    fn concat(low: V, high: V) -> Self {
+        Halves(low, high)
+    }
+    #[inline(always)]
+    fn halves(self) -> (V, V) {
+        (self.0, self.1)
     }
 }
 
 impl<V: SimdF32> SimdF32 for Halves<V>
 where
     Self: Lanes<Elem = f32, Simd = V::Simd, Mask = Halves<V::Mask>>,
-    Halves<V::I32>: SimdI32<Simd = V::Simd, Mask = Halves<V::Mask>>,
+    Halves<V::I32>: SimdI32<Simd = V::Simd, Mask = Halves<V::Mask>, U32 = Halves<V::U32>>,
     Halves<V::U32>: SimdU32<Simd = V::Simd, Mask = Halves<V::Mask>>,
 {
     type I32 = Halves<V::I32>;
     type U32 = Halves<V::U32>;
 
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Halves(self.0.sqrt(), self.1.sqrt())
+    const FUSED: bool = V::FUSED;
+
+    halved! {
+        sqrt();
+        abs();
+        copysign(sign);
+        fused_mul_add(b, c);
+        fused_mul_sub(b, c);
+        fused_nmul_add(b, c);
+        fused_nmul_sub(b, c);
+        min_num(b);
+        max_num(b);
+        floor();
+        ceil();
+        trunc();
+        round_ties_even();
+        rcp_est();
+        rsqrt_est();
+        rcp_fast();
+        rsqrt_fast();
     }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Halves(self.0.abs(), self.1.abs())
-    }
-    #[inline(always)]
-    fn min(self, b: Self) -> Self {
-        Halves(self.0.min(b.0), self.1.min(b.1))
-    }
-    #[inline(always)]
-    fn max(self, b: Self) -> Self {
-        Halves(self.0.max(b.0), self.1.max(b.1))
-    }
-    #[inline(always)]
-    fn eq(self, b: Self) -> Self::Mask {
-        Halves(self.0.eq(b.0), self.1.eq(b.1))
-    }
-    #[inline(always)]
-    fn ne(self, b: Self) -> Self::Mask {
-        Halves(self.0.ne(b.0), self.1.ne(b.1))
-    }
-    #[inline(always)]
-    fn lt(self, b: Self) -> Self::Mask {
-        Halves(self.0.lt(b.0), self.1.lt(b.1))
-    }
-    #[inline(always)]
-    fn le(self, b: Self) -> Self::Mask {
-        Halves(self.0.le(b.0), self.1.le(b.1))
-    }
+
     #[inline(always)]
     fn to_bits(self) -> Self::U32 {
         Halves(self.0.to_bits(), self.1.to_bits())
@@ -120,47 +188,77 @@ where
     fn from_i32(i: Self::I32) -> Self {
         Halves(V::from_i32(i.0), V::from_i32(i.1))
     }
+    #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        Halves(V::from_u32(u.0), V::from_u32(u.1))
+    }
+    #[inline(always)]
+    fn to_i32(self) -> Self::I32 {
+        Halves(self.0.to_i32(), self.1.to_i32())
+    }
+    #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        Halves(self.0.to_u32(), self.1.to_u32())
+    }
+    #[inline(always)]
+    fn to_i32_fast(self) -> Self::I32 {
+        Halves(self.0.to_i32_fast(), self.1.to_i32_fast())
+    }
+    #[inline(always)]
+    fn to_u32_fast(self) -> Self::U32 {
+        Halves(self.0.to_u32_fast(), self.1.to_u32_fast())
+    }
 }
 
-/// The integers' methods are the same for both signs.
-macro_rules! integer_halves {
-    ($Trait:ident, $elem:ty) => {
-        impl<V: $Trait> $Trait for Halves<V>
-        where
-            Self: Lanes<Elem = $elem, Simd = V::Simd, Mask = Halves<V::Mask>>,
-        {
-            #[inline(always)]
-            fn min(self, b: Self) -> Self {
-                Halves(self.0.min(b.0), self.1.min(b.1))
-            }
-            #[inline(always)]
-            fn max(self, b: Self) -> Self {
-                Halves(self.0.max(b.0), self.1.max(b.1))
-            }
-            #[inline(always)]
-            fn eq(self, b: Self) -> Self::Mask {
-                Halves(self.0.eq(b.0), self.1.eq(b.1))
-            }
-            #[inline(always)]
-            fn lt(self, b: Self) -> Self::Mask {
-                Halves(self.0.lt(b.0), self.1.lt(b.1))
-            }
-        }
-    };
-}
-
-integer_halves!(SimdI32, i32);
-integer_halves!(SimdU32, u32);
-
-impl<M: SimdMask> SimdMask for Halves<M>
+impl<V: SimdInt> SimdInt for Halves<V>
 where
-    M::Array: Join<Joined: AsRef<[bool]> + AsMut<[bool]>>,
+    Self: Lanes,
 {
+    #[inline(always)]
+    fn shl(self, n: u32) -> Self {
+        Halves(self.0.shl(n), self.1.shl(n))
+    }
+    #[inline(always)]
+    fn shr(self, n: u32) -> Self {
+        Halves(self.0.shr(n), self.1.shr(n))
+    }
+}
+
+impl<V: SimdI32> SimdI32 for Halves<V>
+where
+    Self: Lanes<Elem = i32, Simd = V::Simd, Mask = Halves<V::Mask>>,
+    Halves<V::U32>: SimdU32<Simd = V::Simd, Mask = Halves<V::Mask>>,
+{
+    type U32 = Halves<V::U32>;
+
+    halved! { abs(); }
+
+    #[inline(always)]
+    fn sar(self, n: u32) -> Self {
+        Halves(self.0.sar(n), self.1.sar(n))
+    }
+    #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        Halves(self.0.to_u32(), self.1.to_u32())
+    }
+    #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        Halves(V::from_u32(u.0), V::from_u32(u.1))
+    }
+}
+
+impl<V: SimdU32> SimdU32 for Halves<V> where Self: Lanes<Elem = u32> {}
+
+impl<M: SimdMask<Array: Join<bool>>> SimdMask for Halves<M> {
     type Simd = M::Simd;
-    type Array = <M::Array as Join>::Joined;
+    type Array = <M::Array as Join<bool>>::Joined;
 
     const LANES: usize = 2 * M::LANES;
 
+    #[inline(always)]
+    fn token(self) -> Self::Simd {
+        self.0.token()
+    }
     #[inline(always)]
     fn splat(s: Self::Simd, b: bool) -> Self {
         Halves(M::splat(s, b), M::splat(s, b))

@@ -2,7 +2,7 @@
 
 use core::ops::{BitAnd, BitAndAssign, BitOr, BitOrAssign, BitXor, BitXorAssign, Not};
 
-use super::Lanes;
+use super::{LaneArray, Lanes};
 use crate::Simd;
 use crate::simd::sealed::Sealed;
 
@@ -25,7 +25,7 @@ pub trait SimdMask:
     /// The level's token.
     type Simd: Simd;
     /// All lanes, lane 0 first.
-    type Array: Copy + AsRef<[bool]> + AsMut<[bool]>;
+    type Array: LaneArray<bool>;
 
     /// The number of lanes.
     const LANES: usize;
@@ -38,6 +38,15 @@ pub trait SimdMask:
     fn to_array(self) -> Self::Array;
     /// Bit `i` is lane `i`; the bits beyond the lanes are 0.
     fn bitmask(self) -> u32;
+
+    /// The token that every value carries.
+    fn token(self) -> Self::Simd;
+
+    /// `self & !other`, lane by lane.
+    #[inline(always)]
+    fn and_not(self, other: Self) -> Self {
+        self & !other
+    }
 
     /// Whether any lane is true.
     #[inline(always)]

@@ -1,39 +1,64 @@
-//! The types' contracts, one trait a kind of element, and the pair of registers that makes a
-//! type of twice the width.
+//! The types' contracts: what all numbers share ([`Lanes`]), what each kind of element adds, and
+//! the pair of registers that makes a type of twice the width.
 
+mod array;
 mod f32;
 mod halves;
-mod i32;
+mod int;
 mod mask;
-mod u32;
+pub(crate) mod reduce;
+mod seam;
+pub(crate) mod soft;
+mod swizzle;
 
+pub use array::{Element, LaneArray};
 pub use f32::SimdF32;
 pub use halves::Halves;
-pub use i32::SimdI32;
+pub(crate) use halves::Join;
+pub use int::{SimdI32, SimdInt, SimdU32};
 pub use mask::SimdMask;
-pub use u32::SimdU32;
+pub use swizzle::Swizzle;
+
+pub(crate) use seam::{conversions, operators, unary_operator};
+
+use core::ops::{Add, AddAssign, Mul, MulAssign, Sub, SubAssign};
 
 use crate::Simd;
 use crate::simd::sealed::Sealed;
 
-/// What all vectors of numbers have in common: lanes that come from memory and go back.
+/// Lanes of numbers: memory, arithmetic, comparisons, moves and reductions.
 ///
-/// Nothing here reads or writes past a slice.
-pub trait Lanes: Copy + Send + Sync + core::fmt::Debug + Sealed + 'static {
+/// Lane 0 is the lowest address. Nothing here reads or writes past a slice.
+pub trait Lanes:
+    Copy
+    + Send
+    + Sync
+    + core::fmt::Debug
+    + Sealed
+    + Add<Output = Self>
+    + AddAssign
+    + Sub<Output = Self>
+    + SubAssign
+    + Mul<Output = Self>
+    + MulAssign
+    + 'static
+{
     /// The level's token.
     type Simd: Simd;
     /// One lane.
-    type Elem: Copy;
+    type Elem: Element;
     /// All lanes, lane 0 first.
-    type Array: Copy
-        + AsRef<[Self::Elem]>
-        + AsMut<[Self::Elem]>
-        + for<'a> TryFrom<&'a [Self::Elem], Error = core::array::TryFromSliceError>;
+    type Array: LaneArray<Self::Elem>;
     /// The truth of a comparison, lane by lane.
     type Mask: SimdMask<Simd = Self::Simd>;
 
     /// The number of lanes.
     const LANES: usize;
+
+    // Make
+
+    /// The token that every value carries.
+    fn token(self) -> Self::Simd;
 
     /// The same value in every lane.
     fn splat(s: Self::Simd, x: Self::Elem) -> Self;
@@ -44,8 +69,22 @@ pub trait Lanes: Copy + Send + Sync + core::fmt::Debug + Sealed + 'static {
     /// To an array, lane 0 first.
     fn to_array(self) -> Self::Array;
 
-    /// `mask ? a : b`, lane by lane.
-    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+    /// 0, 1, 2, … : every lane its own number.
+    #[inline(always)]
+    fn iota(s: Self::Simd) -> Self {
+        Self::from_array(s, LaneArray::from_fn(Self::Elem::from_index))
+    }
+
+    /// The value of one lane.
+    ///
+    /// # Panics
+    /// If there is no such lane.
+    #[inline(always)]
+    fn lane(self, lane: usize) -> Self::Elem {
+        self.to_array().as_ref()[lane]
+    }
+
+    // Memory
 
     /// The first [`Lanes::LANES`] elements of a slice.
     ///
@@ -89,82 +128,265 @@ pub trait Lanes: Copy + Send + Sync + core::fmt::Debug + Sealed + 'static {
         }
         to.copy_from_slice(&self.to_array().as_ref()[..n]);
     }
+
+    /// `mask ? from[lane] : fill`: only the elements of the mask's lanes are read.
+    ///
+    /// # Panics
+    /// If the mask has a lane that the slice lacks.
+    #[inline(always)]
+    fn load_masked(s: Self::Simd, from: &[Self::Elem], mask: Self::Mask, fill: Self::Elem) -> Self {
+        let bits = mask.bitmask();
+        Self::from_array(
+            s,
+            LaneArray::from_fn(
+                #[inline(always)]
+                |i| if bits >> i & 1 == 1 { from[i] } else { fill },
+            ),
+        )
+    }
+
+    /// Writes the elements of the mask's lanes only.
+    ///
+    /// # Panics
+    /// If the mask has a lane that the slice lacks.
+    #[inline(always)]
+    fn store_masked(self, to: &mut [Self::Elem], mask: Self::Mask) {
+        let (a, bits) = (self.to_array(), mask.bitmask());
+        let mut i = 0;
+        while i < Self::LANES {
+            if bits >> i & 1 == 1 {
+                to[i] = a.as_ref()[i];
+            }
+            i += 1;
+        }
+    }
+
+    /// `from[index]`, every lane at an index of its own.
+    ///
+    /// # Panics
+    /// If an index is out of the slice.
+    #[inline(always)]
+    fn gather<I: SimdU32<Simd = Self::Simd, Mask = Self::Mask>>(
+        from: &[Self::Elem],
+        index: I,
+    ) -> Self {
+        let index_of = index.to_array();
+        Self::from_array(
+            index.token(),
+            LaneArray::from_fn(
+                #[inline(always)]
+                |i| from[index_of.as_ref()[i] as usize],
+            ),
+        )
+    }
+
+    /// Writes the mask's lanes one after the other to the start of a slice and returns how many
+    /// there are. The elements behind them keep their values.
+    ///
+    /// # Panics
+    /// If the slice is shorter than that.
+    #[inline(always)]
+    fn compress_store(self, mask: Self::Mask, to: &mut [Self::Elem]) -> usize {
+        let (a, bits) = (self.to_array(), mask.bitmask());
+        let (mut i, mut n) = (0, 0);
+        while i < Self::LANES {
+            if bits >> i & 1 == 1 {
+                to[n] = a.as_ref()[i];
+                n += 1;
+            }
+            i += 1;
+        }
+        n
+    }
+
+    // Least and greatest, comparisons
+
+    /// [`spec::min`](crate::spec::min): `a < b ? a : b`, so a NaN in either gives `other`.
+    fn min(self, other: Self) -> Self;
+    /// [`spec::max`](crate::spec::max): `a > b ? a : b`, so a NaN in either gives `other`.
+    fn max(self, other: Self) -> Self;
+
+    /// `self == other`; false on NaN.
+    fn eq(self, other: Self) -> Self::Mask;
+    /// `self < other`; false on NaN.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self <= other`; false on NaN.
+    fn le(self, other: Self) -> Self::Mask;
+
+    /// `self != other`; true on NaN.
+    #[inline(always)]
+    fn ne(self, other: Self) -> Self::Mask {
+        !self.eq(other)
+    }
+
+    /// `self > other`; false on NaN.
+    #[inline(always)]
+    fn gt(self, other: Self) -> Self::Mask {
+        other.lt(self)
+    }
+
+    /// `self >= other`; false on NaN.
+    #[inline(always)]
+    fn ge(self, other: Self) -> Self::Mask {
+        other.le(self)
+    }
+
+    /// `mask ? a : b`, lane by lane.
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    // Moves
+
+    /// Lane `i` of the result is lane `I::INDEX[i]`; [`swizzle!`](crate::swizzle!) takes the
+    /// order in place.
+    #[inline(always)]
+    fn swizzle<I: Swizzle>(self) -> Self {
+        const { swizzle::check(I::INDEX, Self::LANES) };
+        pick(
+            self,
+            self,
+            #[inline(always)]
+            |i| I::INDEX[i],
+        )
+    }
+
+    /// Lane `i` of the result is lane `i + N`, counted round.
+    #[inline(always)]
+    fn rotate<const N: usize>(self) -> Self {
+        pick(
+            self,
+            self,
+            #[inline(always)]
+            |i| (i + N) % Self::LANES,
+        )
+    }
+
+    /// The last lane first.
+    #[inline(always)]
+    fn reverse(self) -> Self {
+        pick(
+            self,
+            self,
+            #[inline(always)]
+            |i| Self::LANES - 1 - i,
+        )
+    }
+
+    /// The lanes of both in turn, `a0 b0 a1 b1 …`: the first half of them and the second.
+    #[inline(always)]
+    fn zip(self, other: Self) -> (Self, Self) {
+        (
+            pick(
+                self,
+                other,
+                #[inline(always)]
+                |i| i / 2 + i % 2 * Self::LANES,
+            ),
+            pick(
+                self,
+                other,
+                #[inline(always)]
+                |i| (i + Self::LANES) / 2 + i % 2 * Self::LANES,
+            ),
+        )
+    }
+
+    /// The even lanes of `self` and then those of `other`; and the odd ones. The inverse of
+    /// [`Lanes::zip`].
+    #[inline(always)]
+    fn unzip(self, other: Self) -> (Self, Self) {
+        (
+            pick(
+                self,
+                other,
+                #[inline(always)]
+                |i| 2 * i,
+            ),
+            pick(
+                self,
+                other,
+                #[inline(always)]
+                |i| 2 * i + 1,
+            ),
+        )
+    }
+
+    // Reductions, in the tree order of `spec::reduce` on every level
+
+    /// One lane of all. What the reductions below are made of.
+    #[doc(hidden)]
+    fn reduce<F: reduce::Fold>(self) -> Self::Elem;
+
+    /// The sum of the lanes, added in the order of [`spec::reduce`](crate::spec::reduce).
+    #[inline(always)]
+    fn reduce_sum(self) -> Self::Elem {
+        self.reduce::<reduce::Sum>()
+    }
+
+    /// The product of the lanes, in the order of [`spec::reduce`](crate::spec::reduce).
+    #[inline(always)]
+    fn reduce_product(self) -> Self::Elem {
+        self.reduce::<reduce::Product>()
+    }
+
+    /// The least of the lanes by [`Lanes::min`], in the order of
+    /// [`spec::reduce`](crate::spec::reduce); which matters to NaN and zeros only.
+    #[inline(always)]
+    fn reduce_min(self) -> Self::Elem {
+        self.reduce::<reduce::Min>()
+    }
+
+    /// The greatest of the lanes by [`Lanes::max`], in the order of
+    /// [`spec::reduce`](crate::spec::reduce); which matters to NaN and zeros only.
+    #[inline(always)]
+    fn reduce_max(self) -> Self::Elem {
+        self.reduce::<reduce::Max>()
+    }
+
+    /// [`spec::argmin`](crate::spec::argmin): the lane of the least value among the mask's lanes,
+    /// and that value; the lowest lane of several. A NaN is never the least.
+    #[inline(always)]
+    fn argmin(self, mask: Self::Mask) -> Option<(usize, Self::Elem)> {
+        let allowed = mask & self.eq(self);
+        let greatest = Self::splat(self.token(), Self::Elem::GREATEST);
+        let least = Self::select(allowed, self, greatest).reduce_min();
+        let lane = (allowed & self.eq(Self::splat(self.token(), least))).first()?;
+        Some((lane, self.lane(lane)))
+    }
+
+    /// [`spec::argmax`](crate::spec::argmax): the lane of the greatest value among the mask's
+    /// lanes, and that value; the lowest lane of several. A NaN is never the greatest.
+    #[inline(always)]
+    fn argmax(self, mask: Self::Mask) -> Option<(usize, Self::Elem)> {
+        let allowed = mask & self.eq(self);
+        let least = Self::splat(self.token(), Self::Elem::LEAST);
+        let greatest = Self::select(allowed, self, least).reduce_max();
+        let lane = (allowed & self.eq(Self::splat(self.token(), greatest))).first()?;
+        Some((lane, self.lane(lane)))
+    }
 }
 
-/// Implements binary operators and their assigning forms: the seam where an operator meets its
-/// instruction.
-macro_rules! operators {
-    (@one [$($generics:tt)*] $ty:ty,
-        $Op:ident $op:ident $OpAssign:ident $op_assign:ident |$a:ident, $b:ident| $body:expr
-    ) => {
-        impl<$($generics)*> core::ops::$Op for $ty {
-            type Output = Self;
-            #[inline(always)]
-            fn $op(self, rhs: Self) -> Self {
-                let ($a, $b) = (self, rhs);
-                $body
-            }
-        }
-        impl<$($generics)*> core::ops::$OpAssign for $ty {
-            #[inline(always)]
-            fn $op_assign(&mut self, rhs: Self) {
-                *self = core::ops::$Op::$op(*self, rhs);
-            }
-        }
-    };
-    ($generics:tt $ty:ty {
-        $($Op:ident $op:ident $OpAssign:ident $op_assign:ident |$a:ident, $b:ident| $body:expr;)*
-    }) => {$(
-        $crate::types::operators! {
-            @one $generics $ty, $Op $op $OpAssign $op_assign |$a, $b| $body
-        }
-    )*};
+/// Lanes of two vectors in a new order: indices count through `a` and then through `b`.
+#[inline(always)]
+fn pick<V: Lanes>(a: V, b: V, index: impl Fn(usize) -> usize) -> V {
+    let (lanes_a, lanes_b) = (a.to_array(), b.to_array());
+    let lanes = LaneArray::from_fn(
+        #[inline(always)]
+        |i| match index(i) {
+            lane if lane < V::LANES => lanes_a.as_ref()[lane],
+            lane => lanes_b.as_ref()[lane - V::LANES],
+        },
+    );
+    V::from_array(a.token(), lanes)
 }
 
-/// Implements a unary operator.
-macro_rules! unary_operator {
-    ([$($generics:tt)*] $ty:ty { $Op:ident $op:ident |$a:ident| $body:expr }) => {
-        impl<$($generics)*> core::ops::$Op for $ty {
-            type Output = Self;
-            #[inline(always)]
-            fn $op(self) -> Self {
-                let $a = self;
-                $body
-            }
-        }
-    };
-}
+/// A type of twice the lanes of another.
+pub trait Wide: Lanes {
+    /// The type of half the lanes.
+    type Half: Lanes<Simd = Self::Simd, Elem = Self::Elem>;
 
-/// What the lanes of every type of numbers share: `Debug` and, where the build guarantees the
-/// level, `From`.
-macro_rules! conversions {
-    ([$($generics:tt)*] $ty:ty, $token:ty) => {
-        impl<$($generics)*> core::fmt::Debug for $ty {
-            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-                let lanes = self.to_array();
-                f.debug_list().entries(AsRef::<[<Self as $crate::Lanes>::Elem]>::as_ref(&lanes)).finish()
-            }
-        }
-        impl<$($generics)*> From<<$ty as $crate::Lanes>::Array> for $ty
-        where
-            $token: $crate::Guaranteed,
-        {
-            #[inline(always)]
-            fn from(a: <$ty as $crate::Lanes>::Array) -> Self {
-                <$ty as $crate::Lanes>::from_array(<$token as $crate::Guaranteed>::TOKEN, a)
-            }
-        }
-        impl<$($generics)*> From<<$ty as $crate::Lanes>::Elem> for $ty
-        where
-            $token: $crate::Guaranteed,
-        {
-            /// The same value in every lane.
-            #[inline(always)]
-            fn from(x: <$ty as $crate::Lanes>::Elem) -> Self {
-                <$ty as $crate::Lanes>::splat(<$token as $crate::Guaranteed>::TOKEN, x)
-            }
-        }
-    };
-}
+    /// One of two, the lower lanes first.
+    fn concat(low: Self::Half, high: Self::Half) -> Self;
 
-pub(crate) use {conversions, operators, unary_operator};
+    /// The lower lanes and the higher.
+    fn halves(self) -> (Self::Half, Self::Half);
+}

@@ -1,9 +1,14 @@
 //! AVX2 with all of x86-64-v3: registers of eight lanes.
 
+#[cfg(target_arch = "x86")]
+use core::arch::x86::*;
+#[cfg(target_arch = "x86_64")]
+use core::arch::x86_64::*;
+
 use super::super::{proven, token};
 use super::xmm::{self, Xmm};
 use super::ymm::{self, Ymm};
-use crate::{Level, Simd};
+use crate::{Halves, Level, Simd};
 
 token! {
     /// The token of the level `avx2`.
@@ -20,7 +25,14 @@ impl Simd for Avx2 {
     type i32x8 = ymm::i32x8<Self>;
     type u32x8 = ymm::u32x8<Self>;
     type mask32x8 = ymm::mask32x8<Self>;
+    type f32x16 = Halves<Self::f32x8>;
+    type i32x16 = Halves<Self::i32x8>;
+    type u32x16 = Halves<Self::u32x8>;
+    type mask32x16 = Halves<Self::mask32x8>;
     type f32s = Self::f32x8;
+    type i32s = Self::i32x8;
+    type u32s = Self::u32x8;
+    type mask32s = Self::mask32x8;
 
     #[inline(always)]
     fn level(self) -> Level {
@@ -37,5 +49,13 @@ impl Simd for Avx2 {
     }
 }
 
-impl Xmm for Avx2 {}
+impl Xmm for Avx2 {
+    const FUSED: bool = true;
+
+    #[inline(always)]
+    fn fused_mul_add(self, a: __m128, b: __m128, c: __m128) -> __m128 {
+        proven!(_mm_fmadd_ps(a, b, c))
+    }
+}
+
 impl Ymm for Avx2 {}

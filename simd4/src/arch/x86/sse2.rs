@@ -7,6 +7,7 @@ use core::arch::x86_64::*;
 
 use super::super::{proven, token};
 use super::xmm::{self, Xmm};
+use crate::types::soft;
 use crate::{Halves, Level, Simd};
 
 token! {
@@ -23,7 +24,14 @@ impl Simd for Sse2 {
     type i32x8 = Halves<Self::i32x4>;
     type u32x8 = Halves<Self::u32x4>;
     type mask32x8 = Halves<Self::mask32x4>;
+    type f32x16 = Halves<Self::f32x8>;
+    type i32x16 = Halves<Self::i32x8>;
+    type u32x16 = Halves<Self::u32x8>;
+    type mask32x16 = Halves<Self::mask32x8>;
     type f32s = Self::f32x4;
+    type i32s = Self::i32x4;
+    type u32s = Self::u32x4;
+    type mask32s = Self::mask32x4;
 
     #[inline(always)]
     fn level(self) -> Level {
@@ -59,11 +67,11 @@ impl Xmm for Sse2 {
     }
     #[inline(always)]
     fn min_u32(self, a: __m128i, b: __m128i) -> __m128i {
-        self.blend_i32(xmm::lt_u32(self, a, b), a, b)
+        self.blend_i32(xmm::lt_u32(a, b), a, b)
     }
     #[inline(always)]
     fn max_u32(self, a: __m128i, b: __m128i) -> __m128i {
-        self.blend_i32(xmm::lt_u32(self, a, b), b, a)
+        self.blend_i32(xmm::lt_u32(a, b), b, a)
     }
     #[inline(always)]
     fn mul_i32(self, a: __m128i, b: __m128i) -> __m128i {
@@ -76,5 +84,21 @@ impl Xmm for Sse2 {
             let odd = _mm_shuffle_epi32::<0b_00_00_10_00>(odd);
             _mm_unpacklo_epi32(even, odd)
         })
+    }
+    #[inline(always)]
+    fn round_ties_even(self, x: xmm::f32x4<Self>) -> xmm::f32x4<Self> {
+        soft::round_ties_even(x)
+    }
+    #[inline(always)]
+    fn floor(self, x: xmm::f32x4<Self>) -> xmm::f32x4<Self> {
+        soft::floor(x)
+    }
+    #[inline(always)]
+    fn ceil(self, x: xmm::f32x4<Self>) -> xmm::f32x4<Self> {
+        soft::ceil(x)
+    }
+    #[inline(always)]
+    fn trunc(self, x: xmm::f32x4<Self>) -> xmm::f32x4<Self> {
+        soft::trunc(x)
     }
 }

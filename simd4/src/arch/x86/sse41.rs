@@ -18,7 +18,14 @@ impl Simd for Sse41 {
     type i32x8 = Halves<Self::i32x4>;
     type u32x8 = Halves<Self::u32x4>;
     type mask32x8 = Halves<Self::mask32x4>;
+    type f32x16 = Halves<Self::f32x8>;
+    type i32x16 = Halves<Self::i32x8>;
+    type u32x16 = Halves<Self::u32x8>;
+    type mask32x16 = Halves<Self::mask32x8>;
     type f32s = Self::f32x4;
+    type i32s = Self::i32x4;
+    type u32s = Self::u32x4;
+    type mask32s = Self::mask32x4;
 
     #[inline(always)]
     fn level(self) -> Level {

@@ -8,8 +8,9 @@ use core::mem::transmute;
 
 use super::super::proven;
 use crate::simd::sealed::Sealed;
-use crate::types::{conversions, operators, unary_operator};
-use crate::{Lanes, Simd, SimdF32, SimdI32, SimdMask, SimdU32};
+use crate::types::reduce::{self, Fold};
+use crate::types::{conversions, operators, soft, unary_operator};
+use crate::{Lanes, Simd, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32};
 
 /// What differs between the levels of 128-bit registers. As provided: SSE4.1 and later.
 pub trait Xmm: Simd {
@@ -41,11 +42,65 @@ pub trait Xmm: Simd {
     fn mul_i32(self, a: __m128i, b: __m128i) -> __m128i {
         proven!(_mm_mullo_epi32(a, b))
     }
+    #[inline(always)]
+    fn round_ties_even(self, x: f32x4<Self>) -> f32x4<Self> {
+        f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(x.0)), self)
+    }
+    #[inline(always)]
+    fn floor(self, x: f32x4<Self>) -> f32x4<Self> {
+        f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>(x.0)), self)
+    }
+    #[inline(always)]
+    fn ceil(self, x: f32x4<Self>) -> f32x4<Self> {
+        f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC }>(x.0)), self)
+    }
+    #[inline(always)]
+    fn trunc(self, x: f32x4<Self>) -> f32x4<Self> {
+        f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC }>(x.0)), self)
+    }
+
+    /// Whether [`Xmm::fused_mul_add`] is one instruction.
+    const FUSED: bool = false;
+
+    /// As [`spec::fused_mul_add`](crate::spec::fused_mul_add), which explains it.
+    #[inline(always)]
+    fn fused_mul_add(self, a: __m128, b: __m128, c: __m128) -> __m128 {
+        #[inline(always)]
+        fn to_odd<L: Xmm>(_: L, a: __m128, b: __m128, c: __m128) -> __m128 {
+            proven!({
+                let (a, b, c) = (_mm_cvtps_pd(a), _mm_cvtps_pd(b), _mm_cvtps_pd(c));
+                let product = _mm_mul_pd(a, b);
+                let sum = _mm_add_pd(product, c);
+                let from_product = _mm_sub_pd(sum, c);
+                let lost = _mm_add_pd(
+                    _mm_sub_pd(product, from_product),
+                    _mm_sub_pd(c, _mm_sub_pd(sum, from_product)),
+                );
+                let zero = _mm_setzero_pd();
+                // +1 where the lost part points away from zero as the sum does, else −1; nothing
+                // where the sum is exact or odd.
+                let bits = _mm_castpd_si128(sum);
+                let differ =
+                    _mm_castpd_si128(_mm_xor_pd(_mm_cmpgt_pd(lost, zero), _mm_cmpgt_pd(sum, zero)));
+                let inexact =
+                    _mm_castpd_si128(_mm_or_pd(_mm_cmplt_pd(lost, zero), _mm_cmpgt_pd(lost, zero)));
+                let one = _mm_srli_epi64::<63>(_mm_set1_epi32(-1));
+                let step = _mm_or_si128(differ, one);
+                let even = _mm_sub_epi64(_mm_and_si128(bits, one), one);
+                let step = _mm_and_si128(_mm_and_si128(step, inexact), even);
+                _mm_cvtpd_ps(_mm_castsi128_pd(_mm_add_epi64(bits, step)))
+            })
+        }
+        let low = to_odd(self, a, b, c);
+        let high =
+            proven!(to_odd(self, _mm_movehl_ps(a, a), _mm_movehl_ps(b, b), _mm_movehl_ps(c, c)));
+        proven!(_mm_movelh_ps(low, high))
+    }
 }
 
 /// `a < b` on unsigned lanes: there are only signed comparisons, so both are moved by 2^31.
 #[inline(always)]
-pub(super) fn lt_u32<L: Xmm>(_: L, a: __m128i, b: __m128i) -> __m128i {
+pub(super) fn lt_u32(a: __m128i, b: __m128i) -> __m128i {
     proven!({
         let bias = _mm_set1_epi32(i32::MIN);
         _mm_cmplt_epi32(_mm_xor_si128(a, bias), _mm_xor_si128(b, bias))
@@ -55,22 +110,22 @@ pub(super) fn lt_u32<L: Xmm>(_: L, a: __m128i, b: __m128i) -> __m128i {
 /// Four lanes of `f32`.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy)]
-pub struct f32x4<L>(__m128, L);
+pub struct f32x4<L>(pub(super) __m128, pub(super) L);
 
 /// Four lanes of `i32`.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy)]
-pub struct i32x4<L>(__m128i, L);
+pub struct i32x4<L>(pub(super) __m128i, pub(super) L);
 
 /// Four lanes of `u32`.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy)]
-pub struct u32x4<L>(__m128i, L);
+pub struct u32x4<L>(pub(super) __m128i, pub(super) L);
 
 /// Four lanes of truth: the bits of a lane are all 1 or all 0.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy)]
-pub struct mask32x4<L>(__m128, L);
+pub struct mask32x4<L>(pub(super) __m128, pub(super) L);
 
 impl<L> Sealed for f32x4<L> {}
 impl<L> Sealed for i32x4<L> {}
@@ -88,6 +143,10 @@ impl<L: Xmm> Lanes for f32x4<L> {
     const LANES: usize = 4;
 
     #[inline(always)]
+    fn token(self) -> L {
+        self.1
+    }
+    #[inline(always)]
     fn splat(s: L, x: f32) -> Self {
         f32x4(proven!(_mm_set1_ps(x)), s)
     }
@@ -98,35 +157,6 @@ impl<L: Xmm> Lanes for f32x4<L> {
     #[inline(always)]
     fn to_array(self) -> [f32; 4] {
         proven!(transmute::<__m128, [f32; 4]>(self.0))
-    }
-    #[inline(always)]
-    fn select(m: mask32x4<L>, a: Self, b: Self) -> Self {
-        f32x4(a.1.blend(m.0, a.0, b.0), a.1)
-    }
-}
-
-conversions! { [L: Xmm] f32x4<L>, L }
-operators! { [L: Xmm] f32x4<L> {
-    Add add AddAssign add_assign |a, b| f32x4(proven!(_mm_add_ps(a.0, b.0)), a.1);
-    Sub sub SubAssign sub_assign |a, b| f32x4(proven!(_mm_sub_ps(a.0, b.0)), a.1);
-    Mul mul MulAssign mul_assign |a, b| f32x4(proven!(_mm_mul_ps(a.0, b.0)), a.1);
-    Div div DivAssign div_assign |a, b| f32x4(proven!(_mm_div_ps(a.0, b.0)), a.1);
-}}
-unary_operator! { [L: Xmm] f32x4<L> {
-    Neg neg |a| f32x4(proven!(_mm_xor_ps(a.0, _mm_set1_ps(-0.0))), a.1)
-}}
-
-impl<L: Xmm> SimdF32 for f32x4<L> {
-    type I32 = i32x4<L>;
-    type U32 = u32x4<L>;
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        f32x4(proven!(_mm_sqrt_ps(self.0)), self.1)
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f32x4(proven!(_mm_andnot_ps(_mm_set1_ps(-0.0), self.0)), self.1)
     }
     #[inline(always)]
     fn min(self, b: Self) -> Self {
@@ -153,6 +183,77 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         mask32x4(proven!(_mm_cmple_ps(self.0, b.0)), self.1)
     }
     #[inline(always)]
+    fn select(m: mask32x4<L>, a: Self, b: Self) -> Self {
+        f32x4(a.1.blend(m.0, a.0, b.0), a.1)
+    }
+    #[inline(always)]
+    fn reduce<F: Fold>(self) -> f32 {
+        reduce::four::<F, Self>(self)
+    }
+}
+
+conversions! { [L: Xmm] f32x4<L>, L }
+operators! { [L: Xmm] f32x4<L> {
+    Add add AddAssign add_assign |a, b| f32x4(proven!(_mm_add_ps(a.0, b.0)), a.1);
+    Sub sub SubAssign sub_assign |a, b| f32x4(proven!(_mm_sub_ps(a.0, b.0)), a.1);
+    Mul mul MulAssign mul_assign |a, b| f32x4(proven!(_mm_mul_ps(a.0, b.0)), a.1);
+    Div div DivAssign div_assign |a, b| f32x4(proven!(_mm_div_ps(a.0, b.0)), a.1);
+}}
+unary_operator! { [L: Xmm] f32x4<L> {
+    Neg neg |a| f32x4(proven!(_mm_xor_ps(a.0, _mm_set1_ps(-0.0))), a.1)
+}}
+
+impl<L: Xmm> SimdF32 for f32x4<L> {
+    type I32 = i32x4<L>;
+    type U32 = u32x4<L>;
+
+    const FUSED: bool = L::FUSED;
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f32x4(proven!(_mm_sqrt_ps(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f32x4(proven!(_mm_andnot_ps(_mm_set1_ps(-0.0), self.0)), self.1)
+    }
+    #[inline(always)]
+    fn fused_mul_add(self, b: Self, c: Self) -> Self {
+        f32x4(self.1.fused_mul_add(self.0, b.0, c.0), self.1)
+    }
+    #[inline(always)]
+    fn round_ties_even(self) -> Self {
+        self.1.round_ties_even(self)
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        self.1.floor(self)
+    }
+    #[inline(always)]
+    fn ceil(self) -> Self {
+        self.1.ceil(self)
+    }
+    #[inline(always)]
+    fn trunc(self) -> Self {
+        self.1.trunc(self)
+    }
+    #[inline(always)]
+    fn rcp_est(self) -> Self {
+        f32x4(proven!(_mm_rcp_ps(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn rsqrt_est(self) -> Self {
+        f32x4(proven!(_mm_rsqrt_ps(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn rcp_fast(self) -> Self {
+        soft::rcp_step(self, self.rcp_est())
+    }
+    #[inline(always)]
+    fn rsqrt_fast(self) -> Self {
+        soft::rsqrt_step(self, self.rsqrt_est())
+    }
+    #[inline(always)]
     fn to_bits(self) -> Self::U32 {
         u32x4(proven!(_mm_castps_si128(self.0)), self.1)
     }
@@ -164,13 +265,28 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
     fn from_i32(i: Self::I32) -> Self {
         f32x4(proven!(_mm_cvtepi32_ps(i.0)), i.1)
     }
+    #[inline(always)]
+    fn to_i32(self) -> Self::I32 {
+        proven!({
+            // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
+            // of NaN none is to stay.
+            let great = _mm_cmpge_ps(self.0, _mm_set1_ps(2_147_483_648.0));
+            let number = _mm_cmpord_ps(self.0, self.0);
+            let turned = _mm_xor_si128(_mm_cvttps_epi32(self.0), _mm_castps_si128(great));
+            i32x4(_mm_and_si128(turned, _mm_castps_si128(number)), self.1)
+        })
+    }
+    #[inline(always)]
+    fn to_i32_fast(self) -> Self::I32 {
+        i32x4(proven!(_mm_cvttps_epi32(self.0)), self.1)
+    }
 }
 
 // i32 and u32
 
-/// What is the same instruction for both signs.
+/// What is the same text for both signs.
 macro_rules! integers {
-    ($name:ident, $elem:ty) => {
+    ($name:ident, $elem:ty, $min:ident, $max:ident, |$a:ident, $b:ident| $lt:expr) => {
         impl<L: Xmm> Lanes for $name<L> {
             type Simd = L;
             type Elem = $elem;
@@ -179,6 +295,10 @@ macro_rules! integers {
 
             const LANES: usize = 4;
 
+            #[inline(always)]
+            fn token(self) -> L {
+                self.1
+            }
             #[inline(always)]
             fn splat(s: L, x: $elem) -> Self {
                 $name(proven!(_mm_set1_epi32(x as i32)), s)
@@ -192,8 +312,33 @@ macro_rules! integers {
                 proven!(transmute::<__m128i, [$elem; 4]>(self.0))
             }
             #[inline(always)]
+            fn min(self, b: Self) -> Self {
+                $name(self.1.$min(self.0, b.0), self.1)
+            }
+            #[inline(always)]
+            fn max(self, b: Self) -> Self {
+                $name(self.1.$max(self.0, b.0), self.1)
+            }
+            #[inline(always)]
+            fn eq(self, b: Self) -> Self::Mask {
+                mask32x4(proven!(_mm_castsi128_ps(_mm_cmpeq_epi32(self.0, b.0))), self.1)
+            }
+            #[inline(always)]
+            fn lt(self, b: Self) -> Self::Mask {
+                let ($a, $b) = (self.0, b.0);
+                mask32x4(proven!(_mm_castsi128_ps($lt)), self.1)
+            }
+            #[inline(always)]
+            fn le(self, b: Self) -> Self::Mask {
+                !b.lt(self)
+            }
+            #[inline(always)]
             fn select(m: mask32x4<L>, a: Self, b: Self) -> Self {
                 $name(a.1.blend_i32(proven!(_mm_castps_si128(m.0)), a.0, b.0), a.1)
+            }
+            #[inline(always)]
+            fn reduce<F: Fold>(self) -> $elem {
+                reduce::four::<F, Self>(self)
             }
         }
 
@@ -212,49 +357,48 @@ macro_rules! integers {
                 $name(proven!(_mm_xor_si128(a.0, b.0)), a.1)
             };
         }}
+        unary_operator! { [L: Xmm] $name<L> {
+            Not not |a| $name(proven!(_mm_xor_si128(a.0, _mm_set1_epi32(-1))), a.1)
+        }}
+
+        impl<L: Xmm> SimdInt for $name<L> {
+            #[inline(always)]
+            fn shl(self, n: u32) -> Self {
+                $name(proven!(_mm_sll_epi32(self.0, _mm_cvtsi32_si128(n as i32))), self.1)
+            }
+            #[inline(always)]
+            fn shr(self, n: u32) -> Self {
+                $name(proven!(_mm_srl_epi32(self.0, _mm_cvtsi32_si128(n as i32))), self.1)
+            }
+        }
     };
 }
 
-integers!(i32x4, i32);
-integers!(u32x4, u32);
+integers!(i32x4, i32, min_i32, max_i32, |a, b| _mm_cmplt_epi32(a, b));
+integers!(u32x4, u32, min_u32, max_u32, |a, b| lt_u32(a, b));
+
+unary_operator! { [L: Xmm] i32x4<L> {
+    Neg neg |a| i32x4(proven!(_mm_sub_epi32(_mm_setzero_si128(), a.0)), a.1)
+}}
 
 impl<L: Xmm> SimdI32 for i32x4<L> {
+    type U32 = u32x4<L>;
+
     #[inline(always)]
-    fn min(self, b: Self) -> Self {
-        i32x4(self.1.min_i32(self.0, b.0), self.1)
+    fn sar(self, n: u32) -> Self {
+        i32x4(proven!(_mm_sra_epi32(self.0, _mm_cvtsi32_si128(n as i32))), self.1)
     }
     #[inline(always)]
-    fn max(self, b: Self) -> Self {
-        i32x4(self.1.max_i32(self.0, b.0), self.1)
+    fn to_u32(self) -> Self::U32 {
+        u32x4(self.0, self.1)
     }
     #[inline(always)]
-    fn eq(self, b: Self) -> Self::Mask {
-        mask32x4(proven!(_mm_castsi128_ps(_mm_cmpeq_epi32(self.0, b.0))), self.1)
-    }
-    #[inline(always)]
-    fn lt(self, b: Self) -> Self::Mask {
-        mask32x4(proven!(_mm_castsi128_ps(_mm_cmplt_epi32(self.0, b.0))), self.1)
+    fn from_u32(u: Self::U32) -> Self {
+        i32x4(u.0, u.1)
     }
 }
 
-impl<L: Xmm> SimdU32 for u32x4<L> {
-    #[inline(always)]
-    fn min(self, b: Self) -> Self {
-        u32x4(self.1.min_u32(self.0, b.0), self.1)
-    }
-    #[inline(always)]
-    fn max(self, b: Self) -> Self {
-        u32x4(self.1.max_u32(self.0, b.0), self.1)
-    }
-    #[inline(always)]
-    fn eq(self, b: Self) -> Self::Mask {
-        mask32x4(proven!(_mm_castsi128_ps(_mm_cmpeq_epi32(self.0, b.0))), self.1)
-    }
-    #[inline(always)]
-    fn lt(self, b: Self) -> Self::Mask {
-        mask32x4(proven!(_mm_castsi128_ps(lt_u32(self.1, self.0, b.0))), self.1)
-    }
-}
+impl<L: Xmm> SimdU32 for u32x4<L> {}
 
 // mask
 
@@ -264,6 +408,10 @@ impl<L: Xmm> SimdMask for mask32x4<L> {
 
     const LANES: usize = 4;
 
+    #[inline(always)]
+    fn token(self) -> L {
+        self.1
+    }
     #[inline(always)]
     fn splat(s: L, b: bool) -> Self {
         Self::from_array(s, [b; 4])

@@ -7,32 +7,34 @@ use core::arch::x86_64::*;
 use core::mem::transmute;
 
 use super::super::proven;
+use super::xmm::{self, Xmm};
 use crate::simd::sealed::Sealed;
-use crate::types::{conversions, operators, unary_operator};
-use crate::{Lanes, Simd, SimdF32, SimdI32, SimdMask, SimdU32};
+use crate::types::reduce::Fold;
+use crate::types::{conversions, operators, soft, unary_operator};
+use crate::{Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide};
 
-/// A level whose token proves AVX2.
-pub trait Ymm: Simd {}
+/// A level whose token proves AVX2 and FMA.
+pub trait Ymm: Xmm {}
 
 /// Eight lanes of `f32`.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy)]
-pub struct f32x8<L>(__m256, L);
+pub struct f32x8<L>(pub(super) __m256, pub(super) L);
 
 /// Eight lanes of `i32`.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy)]
-pub struct i32x8<L>(__m256i, L);
+pub struct i32x8<L>(pub(super) __m256i, pub(super) L);
 
 /// Eight lanes of `u32`.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy)]
-pub struct u32x8<L>(__m256i, L);
+pub struct u32x8<L>(pub(super) __m256i, pub(super) L);
 
 /// Eight lanes of truth: the bits of a lane are all 1 or all 0.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy)]
-pub struct mask32x8<L>(__m256, L);
+pub struct mask32x8<L>(pub(super) __m256, pub(super) L);
 
 impl<L> Sealed for f32x8<L> {}
 impl<L> Sealed for i32x8<L> {}
@@ -50,6 +52,10 @@ impl<L: Ymm> Lanes for f32x8<L> {
     const LANES: usize = 8;
 
     #[inline(always)]
+    fn token(self) -> L {
+        self.1
+    }
+    #[inline(always)]
     fn splat(s: L, x: f32) -> Self {
         f32x8(proven!(_mm256_set1_ps(x)), s)
     }
@@ -60,35 +66,6 @@ impl<L: Ymm> Lanes for f32x8<L> {
     #[inline(always)]
     fn to_array(self) -> [f32; 8] {
         proven!(transmute::<__m256, [f32; 8]>(self.0))
-    }
-    #[inline(always)]
-    fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
-        f32x8(proven!(_mm256_blendv_ps(b.0, a.0, m.0)), a.1)
-    }
-}
-
-conversions! { [L: Ymm] f32x8<L>, L }
-operators! { [L: Ymm] f32x8<L> {
-    Add add AddAssign add_assign |a, b| f32x8(proven!(_mm256_add_ps(a.0, b.0)), a.1);
-    Sub sub SubAssign sub_assign |a, b| f32x8(proven!(_mm256_sub_ps(a.0, b.0)), a.1);
-    Mul mul MulAssign mul_assign |a, b| f32x8(proven!(_mm256_mul_ps(a.0, b.0)), a.1);
-    Div div DivAssign div_assign |a, b| f32x8(proven!(_mm256_div_ps(a.0, b.0)), a.1);
-}}
-unary_operator! { [L: Ymm] f32x8<L> {
-    Neg neg |a| f32x8(proven!(_mm256_xor_ps(a.0, _mm256_set1_ps(-0.0))), a.1)
-}}
-
-impl<L: Ymm> SimdF32 for f32x8<L> {
-    type I32 = i32x8<L>;
-    type U32 = u32x8<L>;
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        f32x8(proven!(_mm256_sqrt_ps(self.0)), self.1)
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f32x8(proven!(_mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0)), self.1)
     }
     #[inline(always)]
     fn min(self, b: Self) -> Self {
@@ -115,6 +92,92 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
         mask32x8(proven!(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, b.0)), self.1)
     }
     #[inline(always)]
+    fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
+        f32x8(proven!(_mm256_blendv_ps(b.0, a.0, m.0)), a.1)
+    }
+    #[inline(always)]
+    fn reduce<F: Fold>(self) -> f32 {
+        {
+            let (low, high) = self.halves();
+            F::fold(low, high).reduce::<F>()
+        }
+    }
+}
+
+conversions! { [L: Ymm] f32x8<L>, L }
+operators! { [L: Ymm] f32x8<L> {
+    Add add AddAssign add_assign |a, b| f32x8(proven!(_mm256_add_ps(a.0, b.0)), a.1);
+    Sub sub SubAssign sub_assign |a, b| f32x8(proven!(_mm256_sub_ps(a.0, b.0)), a.1);
+    Mul mul MulAssign mul_assign |a, b| f32x8(proven!(_mm256_mul_ps(a.0, b.0)), a.1);
+    Div div DivAssign div_assign |a, b| f32x8(proven!(_mm256_div_ps(a.0, b.0)), a.1);
+}}
+unary_operator! { [L: Ymm] f32x8<L> {
+    Neg neg |a| f32x8(proven!(_mm256_xor_ps(a.0, _mm256_set1_ps(-0.0))), a.1)
+}}
+
+impl<L: Ymm> SimdF32 for f32x8<L> {
+    type I32 = i32x8<L>;
+    type U32 = u32x8<L>;
+
+    const FUSED: bool = true;
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f32x8(proven!(_mm256_sqrt_ps(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f32x8(proven!(_mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0)), self.1)
+    }
+    #[inline(always)]
+    fn fused_mul_add(self, b: Self, c: Self) -> Self {
+        f32x8(proven!(_mm256_fmadd_ps(self.0, b.0, c.0)), self.1)
+    }
+    #[inline(always)]
+    fn round_ties_even(self) -> Self {
+        f32x8(
+            proven!(_mm256_round_ps::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(self.0)),
+            self.1,
+        )
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        f32x8(
+            proven!(_mm256_round_ps::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>(self.0)),
+            self.1,
+        )
+    }
+    #[inline(always)]
+    fn ceil(self) -> Self {
+        f32x8(
+            proven!(_mm256_round_ps::<{ _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC }>(self.0)),
+            self.1,
+        )
+    }
+    #[inline(always)]
+    fn trunc(self) -> Self {
+        f32x8(
+            proven!(_mm256_round_ps::<{ _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC }>(self.0)),
+            self.1,
+        )
+    }
+    #[inline(always)]
+    fn rcp_est(self) -> Self {
+        f32x8(proven!(_mm256_rcp_ps(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn rsqrt_est(self) -> Self {
+        f32x8(proven!(_mm256_rsqrt_ps(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn rcp_fast(self) -> Self {
+        soft::rcp_step(self, self.rcp_est())
+    }
+    #[inline(always)]
+    fn rsqrt_fast(self) -> Self {
+        soft::rsqrt_step(self, self.rsqrt_est())
+    }
+    #[inline(always)]
     fn to_bits(self) -> Self::U32 {
         u32x8(proven!(_mm256_castps_si256(self.0)), self.1)
     }
@@ -126,13 +189,28 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
     fn from_i32(i: Self::I32) -> Self {
         f32x8(proven!(_mm256_cvtepi32_ps(i.0)), i.1)
     }
+    #[inline(always)]
+    fn to_i32(self) -> Self::I32 {
+        proven!({
+            // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
+            // of NaN none is to stay.
+            let great = _mm256_cmp_ps::<_CMP_GE_OQ>(self.0, _mm256_set1_ps(2_147_483_648.0));
+            let number = _mm256_cmp_ps::<_CMP_ORD_Q>(self.0, self.0);
+            let turned = _mm256_xor_si256(_mm256_cvttps_epi32(self.0), _mm256_castps_si256(great));
+            i32x8(_mm256_and_si256(turned, _mm256_castps_si256(number)), self.1)
+        })
+    }
+    #[inline(always)]
+    fn to_i32_fast(self) -> Self::I32 {
+        i32x8(proven!(_mm256_cvttps_epi32(self.0)), self.1)
+    }
 }
 
 // i32 and u32
 
-/// What is the same instruction for both signs.
+/// What is the same text for both signs.
 macro_rules! integers {
-    ($name:ident, $elem:ty) => {
+    ($name:ident, $elem:ty, $min:ident, $max:ident, |$a:ident, $b:ident| $lt:expr) => {
         impl<L: Ymm> Lanes for $name<L> {
             type Simd = L;
             type Elem = $elem;
@@ -141,6 +219,10 @@ macro_rules! integers {
 
             const LANES: usize = 8;
 
+            #[inline(always)]
+            fn token(self) -> L {
+                self.1
+            }
             #[inline(always)]
             fn splat(s: L, x: $elem) -> Self {
                 $name(proven!(_mm256_set1_epi32(x as i32)), s)
@@ -154,8 +236,36 @@ macro_rules! integers {
                 proven!(transmute::<__m256i, [$elem; 8]>(self.0))
             }
             #[inline(always)]
+            fn min(self, b: Self) -> Self {
+                $name(proven!($min(self.0, b.0)), self.1)
+            }
+            #[inline(always)]
+            fn max(self, b: Self) -> Self {
+                $name(proven!($max(self.0, b.0)), self.1)
+            }
+            #[inline(always)]
+            fn eq(self, b: Self) -> Self::Mask {
+                mask32x8(proven!(_mm256_castsi256_ps(_mm256_cmpeq_epi32(self.0, b.0))), self.1)
+            }
+            #[inline(always)]
+            fn lt(self, b: Self) -> Self::Mask {
+                let ($a, $b) = (self.0, b.0);
+                mask32x8(proven!(_mm256_castsi256_ps($lt)), self.1)
+            }
+            #[inline(always)]
+            fn le(self, b: Self) -> Self::Mask {
+                !b.lt(self)
+            }
+            #[inline(always)]
             fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
                 $name(proven!(_mm256_blendv_epi8(b.0, a.0, _mm256_castps_si256(m.0))), a.1)
+            }
+            #[inline(always)]
+            fn reduce<F: Fold>(self) -> $elem {
+                {
+                    let (low, high) = self.halves();
+                    F::fold(low, high).reduce::<F>()
+                }
             }
         }
 
@@ -174,52 +284,74 @@ macro_rules! integers {
                 $name(proven!(_mm256_xor_si256(a.0, b.0)), a.1)
             };
         }}
+        unary_operator! { [L: Ymm] $name<L> {
+            Not not |a| $name(proven!(_mm256_xor_si256(a.0, _mm256_set1_epi32(-1))), a.1)
+        }}
+
+        impl<L: Ymm> SimdInt for $name<L> {
+            #[inline(always)]
+            fn shl(self, n: u32) -> Self {
+                $name(proven!(_mm256_sll_epi32(self.0, _mm_cvtsi32_si128(n as i32))), self.1)
+            }
+            #[inline(always)]
+            fn shr(self, n: u32) -> Self {
+                $name(proven!(_mm256_srl_epi32(self.0, _mm_cvtsi32_si128(n as i32))), self.1)
+            }
+        }
     };
 }
 
-integers!(i32x8, i32);
-integers!(u32x8, u32);
+integers!(i32x8, i32, _mm256_min_epi32, _mm256_max_epi32, |a, b| _mm256_cmpgt_epi32(b, a));
+integers!(u32x8, u32, _mm256_min_epu32, _mm256_max_epu32, |a, b| {
+    // There are only signed comparisons, so both are moved by 2^31.
+    let bias = _mm256_set1_epi32(i32::MIN);
+    _mm256_cmpgt_epi32(_mm256_xor_si256(b, bias), _mm256_xor_si256(a, bias))
+});
+
+unary_operator! { [L: Ymm] i32x8<L> {
+    Neg neg |a| i32x8(proven!(_mm256_sub_epi32(_mm256_setzero_si256(), a.0)), a.1)
+}}
 
 impl<L: Ymm> SimdI32 for i32x8<L> {
+    type U32 = u32x8<L>;
+
     #[inline(always)]
-    fn min(self, b: Self) -> Self {
-        i32x8(proven!(_mm256_min_epi32(self.0, b.0)), self.1)
+    fn sar(self, n: u32) -> Self {
+        i32x8(proven!(_mm256_sra_epi32(self.0, _mm_cvtsi32_si128(n as i32))), self.1)
     }
     #[inline(always)]
-    fn max(self, b: Self) -> Self {
-        i32x8(proven!(_mm256_max_epi32(self.0, b.0)), self.1)
+    fn to_u32(self) -> Self::U32 {
+        u32x8(self.0, self.1)
     }
     #[inline(always)]
-    fn eq(self, b: Self) -> Self::Mask {
-        mask32x8(proven!(_mm256_castsi256_ps(_mm256_cmpeq_epi32(self.0, b.0))), self.1)
-    }
-    #[inline(always)]
-    fn lt(self, b: Self) -> Self::Mask {
-        mask32x8(proven!(_mm256_castsi256_ps(_mm256_cmpgt_epi32(b.0, self.0))), self.1)
+    fn from_u32(u: Self::U32) -> Self {
+        i32x8(u.0, u.1)
     }
 }
 
-impl<L: Ymm> SimdU32 for u32x8<L> {
-    #[inline(always)]
-    fn min(self, b: Self) -> Self {
-        u32x8(proven!(_mm256_min_epu32(self.0, b.0)), self.1)
-    }
-    #[inline(always)]
-    fn max(self, b: Self) -> Self {
-        u32x8(proven!(_mm256_max_epu32(self.0, b.0)), self.1)
-    }
-    #[inline(always)]
-    fn eq(self, b: Self) -> Self::Mask {
-        mask32x8(proven!(_mm256_castsi256_ps(_mm256_cmpeq_epi32(self.0, b.0))), self.1)
-    }
-    #[inline(always)]
-    fn lt(self, b: Self) -> Self::Mask {
-        // There are only signed comparisons, so both sides are moved by 2^31.
-        let bias = Self::splat(self.1, 1 << 31);
-        let (a, b) = (self ^ bias, b ^ bias);
-        mask32x8(proven!(_mm256_castsi256_ps(_mm256_cmpgt_epi32(b.0, a.0))), self.1)
-    }
+impl<L: Ymm> SimdU32 for u32x8<L> {}
+
+/// Two 128-bit registers to one and back.
+macro_rules! wide {
+    ($name:ident, $Half:ident, $concat:ident, $low:ident, $high:ident) => {
+        impl<L: Ymm> Wide for $name<L> {
+            type Half = xmm::$Half<L>;
+
+            #[inline(always)]
+            fn concat(low: Self::Half, high: Self::Half) -> Self {
+                $name(proven!($concat(high.0, low.0)), low.1)
+            }
+            #[inline(always)]
+            fn halves(self) -> (Self::Half, Self::Half) {
+                proven!((xmm::$Half($low(self.0), self.1), xmm::$Half($high::<1>(self.0), self.1)))
+            }
+        }
+    };
 }
+
+wide!(f32x8, f32x4, _mm256_set_m128, _mm256_castps256_ps128, _mm256_extractf128_ps);
+wide!(i32x8, i32x4, _mm256_set_m128i, _mm256_castsi256_si128, _mm256_extracti128_si256);
+wide!(u32x8, u32x4, _mm256_set_m128i, _mm256_castsi256_si128, _mm256_extracti128_si256);
 
 // mask
 
@@ -229,6 +361,10 @@ impl<L: Ymm> SimdMask for mask32x8<L> {
 
     const LANES: usize = 8;
 
+    #[inline(always)]
+    fn token(self) -> L {
+        self.1
+    }
     #[inline(always)]
     fn splat(s: L, b: bool) -> Self {
         Self::from_array(s, [b; 8])
