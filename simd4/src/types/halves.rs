@@ -29,23 +29,17 @@ macro_rules! join {
             type Joined = [T; $half + $other];
             #[inline(always)]
             fn join(low: Self, high: Self) -> Self::Joined {
-                LaneArray::from_fn(
-                    #[inline(always)]
-                    |i| if i < $half { low[i] } else { high[i - $half] },
-                )
+                match [low, high].as_flattened().try_into() {
+                    Ok(joined) => joined,
+                    Err(_) => unreachable!(),
+                }
             }
             #[inline(always)]
             fn split(joined: Self::Joined) -> (Self, Self) {
-                (
-                    LaneArray::from_fn(
-                        #[inline(always)]
-                        |i| joined[i],
-                    ),
-                    LaneArray::from_fn(
-                        #[inline(always)]
-                        |i| joined[i + $half],
-                    ),
-                )
+                match (joined.first_chunk(), joined.last_chunk()) {
+                    (Some(low), Some(high)) => (*low, *high),
+                    _ => unreachable!(),
+                }
             }
         }
     };
@@ -101,6 +95,17 @@ where
     #[inline(always)]
     fn to_array(self) -> Self::Array {
         Join::join(self.0.to_array(), self.1.to_array())
+    }
+    #[inline(always)]
+    fn load(s: Self::Simd, from: &[Self::Elem]) -> Self {
+        let (low, high) = from[..Self::LANES].split_at(V::LANES);
+        Halves(V::load(s, low), V::load(s, high))
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [Self::Elem]) {
+        let (low, high) = to[..Self::LANES].split_at_mut(V::LANES);
+        self.0.store(low);
+        self.1.store(high);
     }
 
     halved! {
