@@ -67,11 +67,14 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod arch;
+#[cfg(feature = "std")]
+pub mod check;
 mod dispatch;
 mod level;
 pub mod math;
 mod simd;
 pub mod spec;
+mod storage;
 mod types;
 
 pub use arch::native::{
@@ -80,6 +83,9 @@ pub use arch::native::{
 pub use arch::tokens::*;
 pub use level::{Level, LevelError};
 pub use simd::{Guaranteed, Simd};
+#[cfg(feature = "std")]
+pub use storage::AlignedBuf;
+pub use storage::{Block, Block4, Block8, Block16};
 pub use types::{
     Element, Halves, LaneArray, Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Swizzle, Wide,
 };

@@ -5,7 +5,10 @@ use std::hint::black_box;
 use simd4::prelude::*;
 use simd4::{Element, LaneArray, spec, swizzle};
 
-use crate::numbers::{Case, in_lanes, same};
+use crate::numbers::{in_lanes, same};
+
+/// What two lanes become.
+type Fold = fn(f32, f32) -> f32;
 
 /// The mask of those bits.
 fn mask_of<M: SimdMask>(s: M::Simd, bits: u32) -> M {
@@ -204,7 +207,7 @@ pub(crate) fn float_reductions<V: SimdF32>(s: V::Simd, floats: &[f32]) {
     in_lanes::<V, 1>(s, floats.iter().map(|&x| [x]), |[v], _| {
         let lanes = v.to_array();
         let lanes = lanes.as_ref();
-        let cases: [Case<f32, fn(f32, f32) -> f32>; 4] = [
+        let cases: [(&str, f32, Fold); 4] = [
             ("sum", v.reduce_sum(), |a, b| a + b),
             ("product", v.reduce_product(), |a, b| a * b),
             ("min", v.reduce_min(), spec::min),

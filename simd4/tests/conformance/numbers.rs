@@ -4,7 +4,7 @@ use simd4::prelude::*;
 use simd4::spec;
 
 /// An operation's name, itself, and its definition.
-pub(crate) type Case<Op, Model> = (&'static str, Op, Model);
+type Case<Op, Model> = (&'static str, Op, Model);
 
 type Unary<V, T> = Case<fn(V) -> V, fn(T) -> T>;
 type Binary<V, T> = Case<fn(V, V) -> V, fn(T, T) -> T>;
