@@ -51,6 +51,8 @@ pub mod geom;
 pub mod packet;
 mod primitives;
 pub mod quadric;
+#[cfg(feature = "reference")]
+pub mod reference;
 pub mod slab;
 mod stats;
 mod trace;

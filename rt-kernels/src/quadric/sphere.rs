@@ -19,7 +19,7 @@
 //! Ray Tracing Gems, chapter 7. Deviation: `t` is clamped to the own box.
 
 use simd4::math::Vec3;
-use simd4::{SimdF32, SimdMask};
+use simd4::{Lanes, SimdF32, SimdMask};
 
 use crate::packet::{Frame, Packet, Query};
 use crate::primitives::SphereRecord;
@@ -59,6 +59,6 @@ pub fn intersect<V: SimdF32, F: Frame<V>, Q: Query<V>>(
     let t = t.max(enter);
     let hits = ahead & enter.le(exit) & t.le(query.limit());
     if hits.any() {
-        query.record(s, hits, record.prim, t, zero, zero);
+        query.record(s, hits, V::U32::splat(s, record.prim), t, zero, zero);
     }
 }

@@ -21,35 +21,34 @@
 use simd4::SimdF32;
 use simd4::math::Vec3;
 
-use crate::geom::Aabb;
-use crate::packet::{Frame, Packet};
+use crate::packet::{Boxes, Frame, Packet};
 
 /// What the exit is multiplied by.
 const WIDER: f32 = 1.0 + crate::geom::PADDING;
 
 /// The lanes whose ray may meet something in the box with `tmin <= t <= limit`.
 #[inline(always)]
-pub fn may_hit<V: SimdF32, F: Frame<V>>(
+pub fn may_hit<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
     s: V::Simd,
-    aabb: &Aabb,
+    boxes: &B,
     packet: &Packet<V>,
     frame: &F,
     limit: V,
 ) -> V::Mask {
-    let (enter, exit) = interval(s, aabb, packet, frame, packet.tmin, limit);
+    let (enter, exit) = interval(s, boxes, packet, frame, packet.tmin, limit);
     enter.le(exit)
 }
 
 /// The entry into the box and the padded exit from it: ∓∞ where there is no end.
 #[inline(always)]
-pub fn enter_exit<V: SimdF32, F: Frame<V>>(
+pub fn enter_exit<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
     s: V::Simd,
-    aabb: &Aabb,
+    boxes: &B,
     packet: &Packet<V>,
     frame: &F,
 ) -> (V, V) {
     let infinity = V::splat(s, f32::INFINITY);
-    interval(s, aabb, packet, frame, -infinity, infinity)
+    interval(s, boxes, packet, frame, -infinity, infinity)
 }
 
 /// The part of `after..=before` within the box, its end padded.
@@ -57,15 +56,15 @@ pub fn enter_exit<V: SimdF32, F: Frame<V>>(
 /// `min` and `max` give their second operand where the first is NaN: the order of operands drops
 /// NaNs.
 #[inline(always)]
-fn interval<V: SimdF32, F: Frame<V>>(
+fn interval<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
     s: V::Simd,
-    aabb: &Aabb,
+    boxes: &B,
     packet: &Packet<V>,
     frame: &F,
     after: V,
     before: V,
 ) -> (V, V) {
-    let (near, far) = frame.near_far(s, aabb);
+    let (near, far) = frame.near_far(s, boxes);
     let near = distances(near, packet);
     let far = distances(far, packet);
     let enter = near.z.max(near.y.max(near.x.max(after)));
