@@ -5,6 +5,7 @@
 //! [`AccelKind`], level, packet size and number of threads.
 #![forbid(unsafe_code)]
 
+pub mod accuracy;
 mod exec;
 mod film;
 mod fit;
