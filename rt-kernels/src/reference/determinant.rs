@@ -1,11 +1,11 @@
 //! Determinants of differences of `f32` numbers, with a promised precision.
 //!
 //! First in `f64`, with a bound for the error; if that does not do, as the exact sum of all
-//! products, kept as an expansion: a sum of `f64` that do not overlap (Shewchuk, "Adaptive Precision
-//! Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Three `f32` multiplied
-//! neither overflow nor vanish in `f64`.
+//! products, kept as an [`Expansion`]. Three `f32` multiplied neither overflow nor vanish in `f64`.
 
 use glam::{DVec3, Vec3};
+
+use super::expansion::Expansion;
 
 /// Half the distance from 1 to the next `f64`.
 const ROUNDOFF: f64 = f64::EPSILON / 2.0;
@@ -37,47 +37,14 @@ fn exact(rows: [Difference; 3]) -> f64 {
         let row = |i: usize| rows[i][choice >> i & 1].to_array().map(f64::from);
         let (a, b, c) = (row(0), row(1), row(2));
         let sign = if choice.count_ones() % 2 == 0 { 1.0 } else { -1.0 };
-        for i in 0..3 {
+        for (i, a) in a.into_iter().enumerate() {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             // Of 48 bits: exact.
-            sum.add_product(sign * a[i] * b[j], c[k]);
-            sum.add_product(-sign * a[i] * b[k], c[j]);
+            sum.add_product(sign * a * b[j], c[k]);
+            sum.add_product(-sign * a * b[k], c[j]);
         }
     }
     sum.value()
-}
-
-/// A sum of numbers, exact.
-#[derive(Default)]
-struct Expansion(Vec<f64>);
-
-impl Expansion {
-    /// Adds `a * b`.
-    fn add_product(&mut self, a: f64, b: f64) {
-        let product = a * b;
-        self.add(a.mul_add(b, -product));
-        self.add(product);
-    }
-
-    /// Adds one number: Shewchuk's Grow-Expansion.
-    fn add(&mut self, number: f64) {
-        let mut carry = number;
-        self.0.retain_mut(|part| {
-            let sum = carry + *part;
-            let virtual_part = sum - carry;
-            *part = (carry - (sum - virtual_part)) + (*part - virtual_part);
-            carry = sum;
-            *part != 0.0
-        });
-        if carry != 0.0 {
-            self.0.push(carry);
-        }
-    }
-
-    /// The nearest `f64`, or the next but one; 0 only if the sum is.
-    fn value(&self) -> f64 {
-        self.0.iter().sum()
-    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,11 @@
 //! Oracles: what is exactly so, to judge kernels by. They share no code with them, take the `f32`
 //! they are given as exact numbers, and are as slow as that takes.
 
+pub mod aabb;
+mod ball;
 mod determinant;
+mod expansion;
+pub mod quadric;
 pub mod triangle;
 
 /// Half the distance from 1 to the next `f32`.
