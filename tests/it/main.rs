@@ -1,6 +1,7 @@
 //! Tests that span the crates.
 
 mod accelerators;
+mod accuracy;
 mod build;
 mod padding;
 mod pictures;

@@ -31,8 +31,11 @@ impl SameAxis {
 impl<V: SimdF32> Axes<V> for SameAxis {
     #[inline(always)]
     fn last(self, v: Vec3<V>) -> Vec3<V> {
-        let (v, [x, y, z]) = ([v.x, v.y, v.z], self.0);
-        Vec3::new(v[x], v[y], v[z])
+        match self.0[2] {
+            0 => Vec3::new(v.y, v.z, v.x),
+            1 => Vec3::new(v.z, v.x, v.y),
+            _ => v,
+        }
     }
 }
 

@@ -43,23 +43,11 @@ impl<V: SimdF32> Packet<V> {
     /// The rays from `first` on, as many as there are lanes; lanes beyond the last ray hit nothing.
     #[inline(always)]
     pub fn load(s: V::Simd, rays: &Rays, first: usize) -> Self {
-        let packet = Packet::<V>::load_unchecked(s, rays, first);
-        let Packet { origin, dir, tmin, tmax, .. } = packet;
-        let (zero, infinity) = (V::splat(s, 0.0), V::splat(s, f32::INFINITY));
-        let moves = dir.x.ne(zero) | dir.y.ne(zero) | dir.z.ne(zero);
-        let hits = finite(s, origin) & finite(s, dir) & moves & tmin.ge(zero) & tmin.le(tmax);
-        Packet { tmin: hits.select(tmin, infinity), tmax: hits.select(tmax, -infinity), ..packet }
-    }
-
-    /// As [`Packet::load`], but a ray that is not valid keeps its interval: for measuring what
-    /// kernels make of it. Lanes beyond the last ray are NaN.
-    #[inline(always)]
-    pub fn load_unchecked(s: V::Simd, rays: &Rays, first: usize) -> Self {
         let [origin, dir] = [load3(s, rays, 0, first), load3(s, rays, 3, first)];
         Packet::new(s, origin, dir, load(s, rays, 6, first), load(s, rays, 7, first))
     }
 
-    /// One ray in all lanes, as it is.
+    /// One ray in all lanes.
     #[inline(always)]
     pub fn splat(s: V::Simd, ray: &Ray) -> Self {
         let origin = Vec3::splat(s, ray.origin.to_array());
@@ -69,14 +57,17 @@ impl<V: SimdF32> Packet<V> {
 
     #[inline(always)]
     fn new(s: V::Simd, origin: Vec3<V>, dir: Vec3<V>, tmin: V, tmax: V) -> Self {
+        let (zero, infinity) = (V::splat(s, 0.0), V::splat(s, f32::INFINITY));
+        let moves = dir.x.ne(zero) | dir.y.ne(zero) | dir.z.ne(zero);
+        let hits = finite(s, origin) & finite(s, dir) & moves & tmin.ge(zero) & tmin.le(tmax);
+
         let one = V::splat(s, 1.0);
         Packet {
             origin,
             dir,
             inv: Vec3::new(one / dir.x, one / dir.y, one / dir.z),
-            tmin,
-            // The minimum keeps NaN, as its second operand.
-            tmax: V::splat(s, f32::MAX).min(tmax),
+            tmin: hits.select(tmin, infinity),
+            tmax: hits.select(tmax.min(V::splat(s, f32::MAX)), -infinity),
         }
     }
 

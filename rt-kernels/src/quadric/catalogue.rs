@@ -27,15 +27,15 @@ pub trait QuadricTest: Send + Sync {
     /// emulation, or at a level that does too.
     fn runs(&self, way: Way) -> bool;
 
+    /// Whether it does so by emulation, so that its time means nothing.
+    fn is_emulated(&self, way: Way) -> bool;
+
     /// What it keeps of surfaces; they are numbered in their order. `None` if it is not made for
     /// one of them.
     fn surfaces(&self, surfaces: &[Curved]) -> Option<Surfaces>;
 
     /// Finds the closest hit of every ray among all surfaces, which this kernel made. `hits` is
     /// made as long as `rays`.
-    ///
-    /// The rays are taken as they are: one that is not [valid](crate::Ray) shows what the kernel
-    /// makes of it.
     ///
     /// # Panics
     /// If it cannot be [run](QuadricTest::runs) that way.
@@ -59,6 +59,10 @@ impl<K: QuadricKernel> QuadricTest for Entry<K> {
 
     fn runs(&self, way: Way) -> bool {
         sweep::runs::<K>(way)
+    }
+
+    fn is_emulated(&self, way: Way) -> bool {
+        sweep::emulates::<K>(way)
     }
 
     fn surfaces(&self, surfaces: &[Curved]) -> Option<Surfaces> {

@@ -28,8 +28,7 @@ impl Surfaces {
     }
 }
 
-/// Finds the closest hit of every ray among all surfaces. The rays are taken as they are: nothing
-/// is done for those that are not valid.
+/// Finds the closest hit of every ray among all surfaces.
 pub(super) fn closest<K: QuadricKernel>(
     way: Way,
     surfaces: &Surfaces,
@@ -54,6 +53,11 @@ pub(super) fn runs<K: QuadricKernel>(way: Way) -> bool {
         <S::f32s as SimdF32>::FUSED
     }
     way.shape == Shape::One || !K::FUSED || dispatch!(way.level, s => fuses(s))
+}
+
+/// Whether a kernel fuses there by emulation.
+pub(super) fn emulates<K: QuadricKernel>(way: Way) -> bool {
+    K::FUSED && way.shape == Shape::One
 }
 
 /// Whether there is code of a kernel for vectors of that type.
@@ -103,7 +107,7 @@ fn rays_in_lanes<K: QuadricKernel, V: SimdF32>(
 ) {
     let mut first = 0;
     while first < rays.len() {
-        let packet = Packet::<V>::load_unchecked(s, rays, first);
+        let packet = Packet::<V>::load(s, rays, first);
         let mut query = Closest::new(s, &packet);
         let records = &surfaces.records;
         if K::FRAMED {

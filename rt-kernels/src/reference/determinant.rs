@@ -37,11 +37,10 @@ fn exact(rows: [Difference; 3]) -> f64 {
         let row = |i: usize| rows[i][choice >> i & 1].to_array().map(f64::from);
         let (a, b, c) = (row(0), row(1), row(2));
         let sign = if choice.count_ones() % 2 == 0 { 1.0 } else { -1.0 };
-        for (i, a) in a.into_iter().enumerate() {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
             // Of 48 bits: exact.
-            sum.add_product(sign * a * b[j], c[k]);
-            sum.add_product(-sign * a * b[k], c[j]);
+            sum.add_product(sign * a[i] * b[j], c[k]);
+            sum.add_product(-sign * a[i] * b[k], c[j]);
         }
     }
     sum.value()

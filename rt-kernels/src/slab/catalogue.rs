@@ -30,10 +30,10 @@ pub trait BoxTest: Send + Sync {
     /// lanes.
     fn runs(&self, way: Way) -> bool;
 
+    /// Whether it does so by emulation, so that its time means nothing.
+    fn is_emulated(&self, way: Way) -> bool;
+
     /// Shows every box to every ray. `crossings` is made as long as `rays`.
-    ///
-    /// The rays are taken as they are: one that is not [valid](crate::Ray) shows what the kernel
-    /// makes of it.
     ///
     /// # Panics
     /// If it cannot be [run](BoxTest::runs) that way.
@@ -61,6 +61,10 @@ impl<K: BoxKernel> BoxTest for Entry<K> {
 
     fn runs(&self, way: Way) -> bool {
         sweep::runs::<K>(way)
+    }
+
+    fn is_emulated(&self, way: Way) -> bool {
+        sweep::emulates::<K>(way)
     }
 
     fn cross(&self, way: Way, boxes: &BoxSet, rays: &Rays, crossings: &mut Crossings) {

@@ -101,8 +101,7 @@ impl Crossings {
     }
 }
 
-/// Shows every box to every ray. The rays are taken as they are: nothing is done for those that are
-/// not valid.
+/// Shows every box to every ray.
 pub(super) fn cross<K: BoxKernel>(way: Way, boxes: &BoxSet, rays: &Rays, to: &mut Crossings) {
     to.resize(rays.len());
     match way.shape {
@@ -129,6 +128,11 @@ pub(super) fn runs<K: BoxKernel>(way: Way) -> bool {
 /// Whether a kernel is one of its own for one ray and boxes in lanes.
 const fn boxes_in_lanes_differ<K: BoxKernel>() -> bool {
     !K::TOGETHER && !K::SHARED_ORIGIN
+}
+
+/// Whether a kernel fuses there by emulation.
+pub(super) fn emulates<K: BoxKernel>(way: Way) -> bool {
+    K::FUSED && way.shape == Shape::One
 }
 
 /// Whether there is code of a kernel for vectors of that type.
@@ -167,7 +171,7 @@ fn rays_in_lanes<K: BoxKernel, V: SimdF32>(
 ) {
     let mut first = 0;
     while first < rays.len() {
-        let packet = with_reciprocals::<K, V>(s, Packet::load_unchecked(s, rays, first));
+        let packet = with_reciprocals::<K, V>(s, Packet::load(s, rays, first));
         let mut tally = Tally::new(s);
         if K::FRAMED {
             match packet.frame(s) {

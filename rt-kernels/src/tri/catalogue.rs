@@ -27,14 +27,14 @@ pub trait TriangleTest: Send + Sync {
     /// [fuses](TriangleKernel::FUSED) with one lane, by emulation, or at a level that does too.
     fn runs(&self, way: Way) -> bool;
 
+    /// Whether it does so by emulation, so that its time means nothing.
+    fn is_emulated(&self, way: Way) -> bool;
+
     /// What it keeps of triangles; they are numbered in their order.
     fn triangles(&self, triangles: &[Triangle]) -> Triangles;
 
     /// Finds the closest hit of every ray among all triangles, which this kernel made. `hits` is
     /// made as long as `rays`.
-    ///
-    /// The rays are taken as they are: one that is not [valid](crate::Ray) shows what the kernel
-    /// makes of it.
     ///
     /// # Panics
     /// If it cannot be [run](TriangleTest::runs) that way.
@@ -64,6 +64,10 @@ impl<K: TriangleKernel> TriangleTest for Entry<K> {
         sweep::runs::<K>(way)
     }
 
+    fn is_emulated(&self, way: Way) -> bool {
+        sweep::emulates::<K>(way)
+    }
+
     fn triangles(&self, triangles: &[Triangle]) -> Triangles {
         Triangles::new::<K>(triangles)
     }
@@ -84,8 +88,8 @@ pub fn catalogue() -> Vec<&'static dyn TriangleTest> {
         )*};
     }
     with_each_reciprocal! {
-        MollerTrumbore<_, Plain>;
-        MollerTrumbore<_, Fused>;
+        MollerTrumbore<_, Plain, false>;
+        MollerTrumbore<_, Fused, false>;
         Wald<_, Plain>;
         Wald<_, Fused>;
         Plucker<_, Plain>;
@@ -96,6 +100,8 @@ pub fn catalogue() -> Vec<&'static dyn TriangleTest> {
         Watertight<_, Kahan, false, false>;
         Watertight<_, Fused, false, false>;
     }
+    all.push(&Entry::<MollerTrumbore<Division, Plain, true>>(PhantomData));
+    all.push(&Entry::<MollerTrumbore<Division, Fused, true>>(PhantomData));
     all.push(&Entry::<Watertight>(PhantomData));
     all.push(&Entry::<MollerTrumboreF64>(PhantomData));
     all

@@ -63,8 +63,7 @@ impl Triangles {
     }
 }
 
-/// Finds the closest hit of every ray among all triangles. The rays are taken as they are: nothing
-/// is done for those that are not valid.
+/// Finds the closest hit of every ray among all triangles.
 pub(super) fn closest<K: TriangleKernel>(
     way: Way,
     triangles: &Triangles,
@@ -92,6 +91,11 @@ pub(super) fn runs<K: TriangleKernel>(way: Way) -> bool {
         <S::f32s as SimdF32>::FUSED
     }
     way.shape == Shape::One || !K::SCALAR && (!K::FUSED || dispatch!(way.level, s => fuses(s)))
+}
+
+/// Whether a kernel fuses there by emulation.
+pub(super) fn emulates<K: TriangleKernel>(way: Way) -> bool {
+    K::FUSED && way.shape == Shape::One
 }
 
 /// Whether there is code of a kernel for vectors of that type.
@@ -132,7 +136,7 @@ fn rays_in_lanes<K: TriangleKernel, V: SimdF32>(
 ) {
     let mut first = 0;
     while first < rays.len() {
-        let packet = Packet::<V>::load_unchecked(s, rays, first);
+        let packet = Packet::<V>::load(s, rays, first);
         let mut query = Closest::new(s, &packet);
         let records = &triangles.records;
         if K::FRAMED {

@@ -24,15 +24,18 @@ impl std::fmt::Debug for Subject {
     }
 }
 
-/// Every kernel of the catalogue, every way it runs.
+/// Every kernel of the catalogue, every way it runs without emulation.
 pub fn subjects() -> Vec<Subject> {
-    let each = |test: &'static dyn TriangleTest| {
-        Way::all().into_iter().filter(|&way| test.runs(way)).map(move |way| Subject { test, way })
+    let runs = |subject: &Subject| {
+        subject.test.runs(subject.way) && !subject.test.is_emulated(subject.way)
     };
+    let ways = Way::all();
+    let each = |test| ways.iter().map(move |&way| Subject { test, way }).filter(runs);
     catalogue().into_iter().flat_map(each).collect()
 }
 
-/// What one subject did in one family.
+/// What one subject did in one family. The keys of `rt accuracy --json` are its subject's and
+/// family's names and settings, the fields of the tally, and the time of [`time`](super::time).
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The kernel and the way it was run.

@@ -154,7 +154,8 @@ mod tests {
     #[test]
     fn every_count_counts_its_own() {
         let verdict = |place| Verdict { place, t: 2.0, band: 3.0 };
-        let hit = Some(Hit { t: 2.0, prim: 0, u: 0.0, v: 0.0 });
+        let at = |t| Some(Hit { t, prim: 0, u: 0.0, v: 0.0 });
+        let hit = at(2.0);
         let count = |tests: &[(Place, Option<Hit>)]| {
             let mut tally = Tally::default();
             tally.add(true, true, tests.iter().map(|&(place, hit)| (verdict(place), hit)));
@@ -169,7 +170,6 @@ mod tests {
         assert_eq!(count(&[(Boundary, hit), (Boundary, hit)]), ([0, 1, 0, 0, 0], 0.0));
         assert_eq!(count(&[(Boundary, hit), (Boundary, None)]), ([0, 0, 0, 1, 0], 3.0));
         assert_eq!(count(&[(Outside, None), (Outside, None)]), ([0; 5], 0.0));
-        let nan = Some(Hit { t: f32::NAN, ..hit.expect("a hit") });
-        assert_eq!(count(&[(Outside, nan)]), ([0, 0, 1, 0, 1], 3.0));
+        assert_eq!(count(&[(Outside, at(f32::NAN))]), ([0, 0, 1, 0, 1], 3.0));
     }
 }

@@ -18,6 +18,7 @@ pub(super) const EDGE: Family = Family {
     name: "edge",
     about: "rays aimed at points of an edge that two triangles share",
     kind: Kind::Closed,
+    fair: true,
     setting: UNIT,
     make: |random, place| aimed(random, place, ROUND, Aim::Edge),
 };
@@ -26,6 +27,7 @@ pub(super) const VERTEX: Family = Family {
     name: "vertex",
     about: "rays aimed at a vertex that five or six triangles share",
     kind: Kind::Closed,
+    fair: true,
     setting: UNIT,
     make: |random, place| aimed(random, place, ROUND, Aim::Vertex),
 };
@@ -34,6 +36,7 @@ pub(super) const AXIS: Family = Family {
     name: "axis",
     about: "rays along an axis, exactly at a vertex or a point of an edge, with zeros of both signs",
     kind: Kind::Closed,
+    fair: true,
     setting: UNIT,
     make: |random, place| aimed(random, place, ROUND, Aim::Axis),
 };
@@ -42,6 +45,7 @@ pub(super) const FAR: Family = Family {
     name: "far",
     about: "edges and vertices of a mesh of size 2 that is 220,000 from the world's origin",
     kind: Kind::Closed,
+    fair: true,
     setting: Setting { offset: 2.2e5, ..UNIT },
     make: |random, place| aimed(random, place, ROUND, Aim::Both),
 };
@@ -50,6 +54,7 @@ pub(super) const VERY_FAR: Family = Family {
     name: "very far",
     about: "the same at a million, where coordinates are rounded to a sixteenth",
     kind: Kind::Closed,
+    fair: true,
     setting: Setting { offset: 1e6, ..UNIT },
     make: |random, place| aimed(random, place, ROUND, Aim::Both),
 };
@@ -58,6 +63,7 @@ pub(super) const TINY: Family = Family {
     name: "tiny",
     about: "edges and vertices of a mesh of size 2e-6, which any absolute epsilon loses",
     kind: Kind::Closed,
+    fair: true,
     setting: Setting { scale: 1e-6, ..UNIT },
     make: |random, place| aimed(random, place, ROUND, Aim::Both),
 };
@@ -66,6 +72,7 @@ pub(super) const HUGE: Family = Family {
     name: "huge",
     about: "edges and vertices of a mesh of size 2e6",
     kind: Kind::Closed,
+    fair: true,
     setting: Setting { scale: 1e6, ..UNIT },
     make: |random, place| aimed(random, place, ROUND, Aim::Both),
 };
@@ -74,6 +81,7 @@ pub(super) const PANCAKE: Family = Family {
     name: "pancake",
     about: "edges and vertices of a mesh a thousand times as wide as it is high",
     kind: Kind::Closed,
+    fair: false,
     setting: UNIT,
     make: |random, place| aimed(random, place, DVec3::new(1.0, 1.0, 1e-3), Aim::Both),
 };
@@ -82,6 +90,7 @@ pub(super) const NEEDLE: Family = Family {
     name: "needle",
     about: "edges and vertices of a mesh a thousand times as long as it is wide",
     kind: Kind::Closed,
+    fair: false,
     setting: UNIT,
     make: |random, place| aimed(random, place, DVec3::new(1.0, 1e-3, 1e-3), Aim::Both),
 };
@@ -90,6 +99,7 @@ pub(super) const INTERIOR: Family = Family {
     name: "interior",
     about: "rays aimed at the insides of triangles: what t is worth",
     kind: Kind::Natural,
+    fair: true,
     setting: UNIT,
     make: |random, place| aimed(random, place, ROUND, Aim::Inside),
 };
@@ -98,6 +108,7 @@ pub(super) const RANDOM: Family = Family {
     name: "random",
     about: "rays in any direction inside a mesh of 80 triangles",
     kind: Kind::Natural,
+    fair: true,
     setting: UNIT,
     make: random_directions,
 };

@@ -10,6 +10,7 @@ pub(super) const EXACT: Family = Family {
     name: "grid",
     about: "integer vertices, and rays exactly through them and through edges and diagonals",
     kind: Kind::Closed,
+    fair: true,
     setting: UNIT,
     make: |random, place| {
         *place = place.clone().upright();
@@ -21,6 +22,7 @@ pub(super) const ROTATED: Family = Family {
     name: "rotated grid",
     about: "the same grid, rotated and rounded, by another angle in each batch",
     kind: Kind::Closed,
+    fair: true,
     setting: UNIT,
     make: grid,
 };

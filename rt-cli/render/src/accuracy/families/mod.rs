@@ -62,6 +62,9 @@ pub struct Family {
     pub about: &'static str,
     /// What is asked of it.
     pub kind: Kind,
+    /// Whether `t` is well conditioned, so that its errors tell about the kernel: no ray grazes a
+    /// triangle.
+    pub fair: bool,
     /// The setting it is commonly used with.
     pub setting: Setting,
     make: fn(&mut Random, &mut Place) -> Batch,

@@ -6,7 +6,7 @@ use rt_kernels::geom::Triangle;
 
 use super::Setting;
 use crate::accuracy::aim;
-use crate::accuracy::random::{Random, power};
+use crate::accuracy::random::Random;
 
 /// Where a batch is, how large, how turned, and how its corners and axes are ordered.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ pub struct Place {
     axes: [(usize, f64); 3],
     scale: f64,
     offset: DVec3,
-    /// What directions are multiplied by.
+    /// What directions are multiplied by: 1 leaves them as they were aimed, to the last bit.
     pace: f32,
     random: Random,
 }
@@ -31,7 +31,7 @@ impl Place {
             axes: order.map(|axis| (axis, random.pick(&[1.0, -1.0]))),
             scale: setting.scale.into(),
             offset: random.direction().as_dvec3() * f64::from(setting.offset),
-            pace: power(random.pick(&[0, -10, 10])),
+            pace: random.pick(&[1.0, 1e-3, 1e3]),
             random: Random::new(random.bits()),
         }
     }
@@ -42,6 +42,7 @@ impl Place {
     pub(super) fn upright(mut self) -> Place {
         self.rotation = DQuat::IDENTITY;
         self.offset = (self.offset / self.scale).round() * self.scale;
+        self.pace = 1.0;
         self
     }
 

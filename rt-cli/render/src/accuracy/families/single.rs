@@ -11,6 +11,7 @@ pub(super) const BAND: Family = Family {
     name: "band",
     about: "rays that pass an edge at 1e-8 to 1e-2 of the triangle's size, inside and outside",
     kind: Kind::Single,
+    fair: false,
     setting: UNIT,
     make: |random, place| {
         let [a, b, c] = fair(random);
@@ -27,6 +28,7 @@ pub(super) const EDGE_ON: Family = Family {
     name: "edge-on",
     about: "rays that nearly run in the triangle's plane, from 16 to 16,000 sizes away",
     kind: Kind::Single,
+    fair: false,
     setting: UNIT,
     make: |random, place| {
         let [a, b, c] = fair(random);
@@ -44,6 +46,7 @@ pub(super) const SPAWNED: Family = Family {
     name: "spawned",
     about: "rays that leave a point of the triangle, moved off by 64 roundoffs: none may meet it again",
     kind: Kind::Single,
+    fair: false,
     setting: UNIT,
     make: spawned,
 };
@@ -52,6 +55,7 @@ pub(super) const DEGENERATE: Family = Family {
     name: "degenerate",
     about: "triangles without area, or without more of it than rounding gives, from everywhere",
     kind: Kind::Broken,
+    fair: false,
     setting: UNIT,
     make: degenerate,
 };
@@ -60,6 +64,7 @@ pub(super) const NOT_FINITE: Family = Family {
     name: "not finite",
     about: "rays and corners with a NaN or an infinity in them, and rays that go nowhere",
     kind: Kind::Broken,
+    fair: false,
     setting: UNIT,
     make: not_finite,
 };
