@@ -21,6 +21,8 @@ pub struct Tally {
     pub false_misses: u64,
     /// Rays that were said to meet something though numbers are NaN or infinite, or at a NaN.
     pub nan_hits: u64,
+    /// Rays of which the oracle cannot tell: they count for nothing else.
+    pub unsure: u64,
     /// How far, at most, from an edge a ray was misjudged: in units of 2^-24 of the greatest
     /// coordinate.
     pub band: f64,
@@ -71,6 +73,7 @@ impl Tally {
         self.false_hits += other.false_hits;
         self.false_misses += other.false_misses;
         self.nan_hits += other.nan_hits;
+        self.unsure += other.unsure;
         self.band = self.band.max(other.band);
         self.t_ulp.merge(&other.t_ulp);
     }
@@ -91,7 +94,7 @@ const LEAST: f32 = 1.0 / 1024.0;
 const BIN: u32 = 23 - 5;
 
 impl Quantiles {
-    fn add(&mut self, error: f64) {
+    pub(super) fn add(&mut self, error: f64) {
         let bits = (error as f32).clamp(LEAST, f32::MAX).to_bits() - LEAST.to_bits();
         let bin = (bits >> BIN) as usize;
         if bin >= self.bins.len() {

@@ -36,18 +36,31 @@ pub fn time(subjects: &[Subject], rounds: usize) -> Vec<Time> {
     let records: Vec<_> =
         subjects.iter().map(|subject| subject.test.triangles(&triangles)).collect();
     let mut hits = Hits::new();
-    let mut times = vec![Vec::with_capacity(rounds); subjects.len()];
+    race(subjects.len(), rounds, RAYS * TRIANGLES, |i| {
+        let (subject, records) = (&subjects[i], &records[i]);
+        subject.test.closest(subject.way, records, black_box(&rays), &mut hits);
+        black_box(&hits);
+    })
+}
+
+/// Times runs of so many tests by each of some subjects, in turn.
+pub(super) fn race(
+    subjects: usize,
+    rounds: usize,
+    tests: usize,
+    mut run: impl FnMut(usize),
+) -> Vec<Time> {
+    let mut times = vec![Vec::with_capacity(rounds); subjects];
     for round in 0..=rounds {
-        for ((subject, records), times) in subjects.iter().zip(&records).zip(&mut times) {
+        for (subject, times) in times.iter_mut().enumerate() {
             let start = Instant::now();
             for _ in 0..REPEATS {
-                subject.test.closest(subject.way, records, black_box(&rays), &mut hits);
-                black_box(&hits);
+                run(subject);
             }
             let ns = start.elapsed().as_secs_f64() * 1e9;
             // The first round warms up.
             if round > 0 {
-                times.push(ns / f64::from(REPEATS) / (RAYS * TRIANGLES) as f64);
+                times.push(ns / f64::from(REPEATS) / tests as f64);
             }
         }
     }

@@ -22,7 +22,7 @@ pub struct Place {
 }
 
 impl Place {
-    pub(super) fn new(setting: &Setting, random: &mut Random) -> Place {
+    pub(in crate::accuracy) fn new(setting: &Setting, random: &mut Random) -> Place {
         let first = random.below(3);
         let second = (first + 1 + random.below(2)) % 3;
         let order = [first, second, 3 - first - second];
@@ -39,7 +39,7 @@ impl Place {
     /// The same without a rotation: what is exact in the unit world stays so, if the scale is a
     /// power of two.
     #[must_use]
-    pub(super) fn upright(mut self) -> Place {
+    pub(in crate::accuracy) fn upright(mut self) -> Place {
         self.rotation = DQuat::IDENTITY;
         self.offset = (self.offset / self.scale).round() * self.scale;
         self.pace = 1.0;

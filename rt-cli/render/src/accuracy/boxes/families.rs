@@ -1,0 +1,328 @@
+//! Families of rays and boxes that are hard on slab tests.
+//!
+//! Numbers stay in the range for which the kernels promise anything: the greatest component of a
+//! direction is between 2^-20 and 2^20, and an origin that is not on a plane is no nearer to it
+//! than rounding makes it.
+
+use glam::{DVec3, Vec3};
+use rt_kernels::geom::Aabb;
+use rt_kernels::{Ray, Rays};
+
+use crate::accuracy::random::Random;
+use crate::accuracy::{BATCH, Place, Setting, aim};
+
+/// Some rays, each of which is tested against one box.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    /// The box.
+    pub aabb: Aabb,
+    /// The rays: [`BATCH`] of them.
+    pub rays: Rays,
+}
+
+/// A generator of hard inputs.
+#[derive(Clone, Copy, Debug)]
+pub struct Family {
+    /// Its name.
+    pub name: &'static str,
+    /// The circumstance, in a sentence.
+    pub about: &'static str,
+    /// Whether entries are well conditioned, so that their errors tell about the kernel: no
+    /// reciprocal is infinite.
+    pub fair: bool,
+    /// The setting it is commonly used with.
+    pub setting: Setting,
+    aabb: fn(&mut Random, &Place) -> Aabb,
+    ray: fn(&mut Random, &Aabb) -> Ray,
+}
+
+/// Near the origin, of size 1.
+const UNIT: Setting = Setting { seed: 1, scale: 1.0, offset: 0.0 };
+
+impl Family {
+    /// All families of rays and boxes.
+    pub const ALL: [Family; 15] = [
+        Family {
+            name: "interior",
+            about: "rays from outside through the inside",
+            fair: true,
+            setting: UNIT,
+            aabb: solid,
+            ray: |random, aabb| {
+                let target = inside(random, aabb);
+                at_any_pace(around(random, aabb, target, 1, 6), target, random)
+            },
+        },
+        Family {
+            name: "random",
+            about: "rays between any two points: what happens by nature",
+            fair: true,
+            setting: UNIT,
+            aabb: solid,
+            ray: |random, aabb| {
+                let center = (aabb.min() + aabb.max()) * 0.5;
+                let size = aabb.extent().max_element();
+                let [from, to] = [(); 2].map(|()| center + random.in_cube() * (2.0 * size));
+                at_any_pace(from, to, random)
+            },
+        },
+        Family {
+            name: "edge",
+            about: "rays aimed at points of an edge, past two sides of the box",
+            fair: true,
+            setting: UNIT,
+            aabb: solid,
+            ray: past_edge,
+        },
+        Family {
+            name: "corner",
+            about: "rays aimed at a corner, where three sides meet",
+            fair: true,
+            setting: UNIT,
+            aabb: solid,
+            ray: |random, aabb| {
+                let target = on(random, aabb, 3);
+                at_any_pace(around(random, aabb, target, -2, 8), target, random)
+            },
+        },
+        Family {
+            name: "band",
+            about: "rays that pass an edge at 1e-8 to 1e-2 of the box's size, inside and outside",
+            fair: true,
+            setting: UNIT,
+            aabb: solid,
+            ray: |random, aabb| {
+                let size = aabb.extent().max_element();
+                let off = random.direction() * (size * random.magnitude(-27, -7));
+                let target = on(random, aabb, 2) + off;
+                at_any_pace(around(random, aabb, target, 0, 6), target, random)
+            },
+        },
+        Family {
+            name: "far",
+            about: "edges and corners of a box of size 1 that is 220,000 from the world's origin",
+            fair: true,
+            setting: Setting { offset: 2.2e5, ..UNIT },
+            aabb: solid,
+            ray: past_edge,
+        },
+        Family {
+            name: "very far",
+            about: "the same at a million, where coordinates are rounded to a sixteenth",
+            fair: true,
+            setting: Setting { offset: 1e6, ..UNIT },
+            aabb: solid,
+            ray: past_edge,
+        },
+        Family {
+            name: "tiny",
+            about: "edges and corners of a box of size 1e-6",
+            fair: true,
+            setting: Setting { scale: 1e-6, ..UNIT },
+            aabb: solid,
+            ray: past_edge,
+        },
+        Family {
+            name: "immense",
+            about: "edges and corners of a box of size 2^38, near the end of the range",
+            fair: true,
+            setting: Setting { scale: (1u64 << 38) as f32, ..UNIT },
+            aabb: solid,
+            ray: past_edge,
+        },
+        Family {
+            name: "flat",
+            about: "boxes without extent on one axis or two, hit in their inside and at their edges",
+            fair: true,
+            setting: UNIT,
+            aabb: flat,
+            ray: |random, aabb| {
+                let target = match random.below(3) {
+                    0 => on(random, aabb, 2),
+                    _ => inside(random, aabb),
+                };
+                at_any_pace(around(random, aabb, target, -1, 6), target, random)
+            },
+        },
+        Family {
+            name: "axis",
+            about: "rays along an axis, with zeros of both signs, in sides, along edges and beside them",
+            fair: true,
+            setting: UNIT,
+            aabb: solid_or_flat,
+            ray: |random, aabb| {
+                let sides = random.below(3);
+                let target = on(random, aabb, sides);
+                let axis = random.below(3);
+                let mut origin = target;
+                origin[axis] += aabb.extent().max_element() * random.magnitude(0, 6);
+                let mut ray = aim::at(origin, target);
+                for k in 0..3 {
+                    if k != axis {
+                        ray.dir[k] = random.pick(&[0.0, -0.0]);
+                        if random.below(4) == 0 {
+                            ray.origin[k] =
+                                random.pick(&[origin[k].next_up(), origin[k].next_down()]);
+                        }
+                    }
+                }
+                ray
+            },
+        },
+        Family {
+            name: "on plane",
+            about: "origins in the plane of a side, where 0 · ∞ is NaN: directions along it, ±0 or subnormal",
+            fair: false,
+            setting: UNIT,
+            aabb: solid_or_flat,
+            ray: |random, aabb| {
+                let sides = 1 + random.below(2);
+                let mut target = inside(random, aabb);
+                let mut origin = around(random, aabb, target, -1, 3);
+                let first = random.below(3);
+                let mut ray = aim::at(origin, target);
+                for k in [first, (first + 1) % 3].into_iter().take(sides) {
+                    let side = aabb.axes[k][random.below(2)];
+                    (origin[k], target[k]) = (side, side);
+                    ray = aim::at(origin, target);
+                }
+                for k in [first, (first + 1) % 3].into_iter().take(sides) {
+                    let subnormal = f32::from_bits(1 + random.below(1 << 22) as u32);
+                    ray.dir[k] = random.pick(&[0.0, -0.0, subnormal, -subnormal]);
+                }
+                ray
+            },
+        },
+        Family {
+            name: "slow",
+            about: "directions of which a component or two are 2^-149 to 2^-20: reciprocals that overflow",
+            fair: false,
+            setting: UNIT,
+            aabb: solid,
+            ray: |random, aabb| {
+                let sides = random.below(3);
+                let target = on(random, aabb, sides);
+                let origin = around(random, aabb, target, -1, 3);
+                let mut ray = aim::at(origin, target);
+                let first = random.below(3);
+                let some = 1 + random.below(2);
+                for k in [first, (first + 1) % 3].into_iter().take(some) {
+                    let exponent = random.below(130) as i32;
+                    // In two steps, for the subnormal ones.
+                    let least = random.magnitude(-20 - exponent.min(100), -20);
+                    ray.dir[k] = least * 2f32.powi(-(exponent - 100).max(0));
+                    if random.below(2) == 0 {
+                        ray.origin[k] = target[k];
+                    }
+                }
+                ray
+            },
+        },
+        Family {
+            name: "inside",
+            about: "rays that start inside, on a side, an edge or a corner, and stay or leave",
+            fair: true,
+            setting: UNIT,
+            aabb: solid,
+            ray: |random, aabb| {
+                let sides = random.below(4);
+                let from = on(random, aabb, sides);
+                at_any_pace(from, from + random.direction() * aabb.extent().max_element(), random)
+            },
+        },
+        Family {
+            name: "ends",
+            about: "rays that end where they enter the box or start where they leave it",
+            fair: true,
+            setting: UNIT,
+            aabb: solid,
+            ray: |random, aabb| {
+                let target = on(random, aabb, 1);
+                let origin = around(random, aabb, target, -1, 4);
+                let ray = at_any_pace(origin, target, random);
+                // About where the target is.
+                let axis = ray.dir.abs().max_position();
+                let t = (target[axis] - origin[axis]) / ray.dir[axis];
+                let t = random.pick(&[t, t.next_up(), t.next_down(), t * 0.5]).max(0.0);
+                if random.below(2) == 0 { Ray { tmax: t, ..ray } } else { Ray { tmin: t, ..ray } }
+            },
+        },
+    ];
+
+    /// The family of that name.
+    pub fn named(name: &str) -> Option<&'static Family> {
+        Family::ALL.iter().find(|family| family.name == name)
+    }
+
+    /// Batch number `i` of the family.
+    pub fn batch(&self, setting: &Setting, i: usize) -> Batch {
+        let mut random = Random::new(setting.seed ^ (i as u64).wrapping_mul(0xd134_2543_de82_ef95));
+        let place = Place::new(setting, &mut random).upright();
+        let aabb = (self.aabb)(&mut random, &place);
+        Batch { rays: (0..BATCH).map(|_| (self.ray)(&mut random, &aabb)).collect(), aabb }
+    }
+}
+
+/// Through a point of an edge.
+fn past_edge(random: &mut Random, aabb: &Aabb) -> Ray {
+    let target = on(random, aabb, 2);
+    let origin = around(random, aabb, target, -2, 8);
+    at_any_pace(origin, target, random)
+}
+
+/// A box of size 1/64 to 1 on each axis.
+fn solid(random: &mut Random, place: &Place) -> Aabb {
+    let a = random.in_cube().as_dvec3();
+    let size = [(); 3].map(|()| f64::from(random.magnitude(-6, -1)));
+    spanned(place, a, a + DVec3::from_array(size))
+}
+
+/// One without extent on one axis or two.
+fn flat(random: &mut Random, place: &Place) -> Aabb {
+    let Aabb { mut axes } = solid(random, place);
+    let first = random.below(3);
+    for axis in [first, (first + 1) % 3].into_iter().take(1 + random.below(2)) {
+        axes[axis][1] = axes[axis][0];
+    }
+    Aabb { axes }
+}
+
+fn solid_or_flat(random: &mut Random, place: &Place) -> Aabb {
+    if random.below(2) == 0 { solid(random, place) } else { flat(random, place) }
+}
+
+fn spanned(place: &Place, a: DVec3, b: DVec3) -> Aabb {
+    Aabb::point(place.point(a)).union(&Aabb::point(place.point(b)))
+}
+
+/// A point well within the box, on the axes on which there is a within.
+fn inside(random: &mut Random, aabb: &Aabb) -> Vec3 {
+    let at = |random: &mut Random| 0.05 + 0.9 * random.unit();
+    Vec3::from_array(aabb.axes.map(|[low, high]| between(low, high, at(random))))
+}
+
+/// A point of the box that is exactly on so many sides.
+fn on(random: &mut Random, aabb: &Aabb, sides: usize) -> Vec3 {
+    let mut point = inside(random, aabb);
+    let first = random.below(3);
+    for k in [first, (first + 1) % 3, (first + 2) % 3].into_iter().take(sides) {
+        point[k] = random.pick(&aabb.axes[k]);
+    }
+    point
+}
+
+fn between(low: f32, high: f32, s: f64) -> f32 {
+    let (a, b) = (f64::from(low), f64::from(high));
+    (a + (b - a) * s) as f32
+}
+
+/// A point in any direction from another, 2^`low` to 2^`high` sizes of the box away.
+fn around(random: &mut Random, aabb: &Aabb, point: Vec3, low: i32, high: i32) -> Vec3 {
+    let away = aabb.extent().max_element() * random.magnitude(low, high);
+    point + random.direction() * away
+}
+
+/// From one point through another, at any pace in the range.
+fn at_any_pace(origin: Vec3, target: Vec3, random: &mut Random) -> Ray {
+    aim::paced(aim::at(origin, target), random.pick(&[-20, -3, 0, 0, 0, 5, 19]))
+}
