@@ -2,9 +2,11 @@
 
 mod accelerators;
 mod accuracy;
+mod boxes;
 mod build;
 mod padding;
 mod pictures;
+mod quadrics;
 mod range;
 mod sphere;
 mod triangle;

@@ -4,8 +4,8 @@
 //! three slabs, whose planes belong to them. Along an axis where the direction is 0, of either sign,
 //! it is in the slab always or never: always, if the origin is between the planes or on one. A `tmax`
 //! of ∞ counts as the greatest `f32`, beyond which kernels cannot tell one distance from another. A
-//! box whose least side is greater than its greatest holds no point, and numbers that are not finite
-//! hit nothing.
+//! box whose least side is greater than its greatest holds no point; numbers that are not finite, and
+//! rays whose direction is 0 on all axes, hit nothing.
 
 use super::ROUNDOFF;
 use super::expansion::Expansion;
@@ -77,6 +77,7 @@ pub fn judge(ray: &Ray, aabb: &Aabb) -> Verdict {
     let finite = |numbers: &[f32]| numbers.iter().all(|number| number.is_finite());
     if !(finite(&o) && finite(&d) && finite(aabb.axes.as_flattened()) && ray.tmin.is_finite())
         || ray.tmax.is_nan()
+        || d == [0.0; 3]
         || aabb.axes.iter().any(|[low, high]| low > high)
     {
         return missed;
@@ -180,6 +181,7 @@ mod tests {
     fn what_is_no_number_and_no_box_is_not_hit() {
         assert!(!hits([f32::NAN, 1.5, 1.5], [1.0, 0.0, 0.0]));
         assert!(!hits([0.0, 1.5, 1.5], [f32::INFINITY, 0.0, 0.0]));
+        assert!(!hits([1.5; 3], [0.0, -0.0, 0.0]), "goes nowhere");
         let ray = Ray::new(Vec3::splat(1.5), Vec3::X);
         assert!(!judge(&ray, &Aabb::EMPTY).hits);
         assert!(!judge(&ray, &Aabb { axes: [[2.0, 1.0], [1.0, 2.0], [1.0, 2.0]] }).hits);

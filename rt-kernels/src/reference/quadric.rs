@@ -19,7 +19,7 @@ use crate::geom::{Curved, Quadric};
 pub enum Meeting {
     /// The ray meets the surface first at this t, which is right to 2^-40.
     At(f64),
-    /// It does not, or a number is not finite.
+    /// It does not, or it goes nowhere, or a number is not finite.
     Nowhere,
     /// Too close to call.
     Unsure,
@@ -52,7 +52,7 @@ pub fn judge(ray: &Ray, surface: &Curved) -> Verdict {
     let finite = [ray.origin, ray.dir, center, axis].iter().all(|v| v.is_finite())
         && matrix.iter().chain(&range).all(|number| number.is_finite())
         && level.value().is_finite();
-    if !finite || ray.tmin.is_nan() || ray.tmax.is_nan() {
+    if !finite || ray.dir == Vec3::ZERO || ray.tmin.is_nan() || ray.tmax.is_nan() {
         return nowhere;
     }
     let [[x, y, z], [cx, cy, cz]] = [vector(ray.origin), vector(center)];

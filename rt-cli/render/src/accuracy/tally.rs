@@ -117,8 +117,7 @@ impl Quantiles {
     /// What that share of the errors is no greater than, rounded up by at most 3 %; 0 if there are
     /// none.
     pub fn at(&self, share: f64) -> f64 {
-        let all: u64 = self.bins.iter().sum();
-        let mut rest = (all as f64 * share).ceil() as u64;
+        let mut rest = (self.count() as f64 * share).ceil() as u64;
         for (bin, count) in (1..).zip(&self.bins) {
             if rest <= *count && rest > 0 {
                 let end = f32::from_bits(LEAST.to_bits() + (bin << BIN));
@@ -127,6 +126,11 @@ impl Quantiles {
             rest -= rest.min(*count);
         }
         self.max
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u64 {
+        self.bins.iter().sum()
     }
 
     /// The greatest.

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use rt_kernels::geom::Aabb;
 use rt_kernels::{Ray, Rays};
 
-use crate::accuracy::random::Random;
+use crate::accuracy::random::{Random, power};
 use crate::accuracy::{BATCH, Place, Setting, aim};
 
 /// Some rays, each of which is tested against one box.
@@ -210,7 +210,7 @@ impl Family {
                     let exponent = random.below(130) as i32;
                     // In two steps, for the subnormal ones.
                     let least = random.magnitude(-20 - exponent.min(100), -20);
-                    ray.dir[k] = least * 2f32.powi(-(exponent - 100).max(0));
+                    ray.dir[k] = least * power(-(exponent - 100).max(0));
                     if random.below(2) == 0 {
                         ray.origin[k] = target[k];
                     }
