@@ -20,7 +20,6 @@ impl<T, const LEN: usize> Row<T, LEN> {
 pub(crate) struct Io {
     pub(crate) f: [Row<f32, N>; 9],
     pub(crate) i: [Row<i32, N>; 2],
-    /// Of the second row each element is an index into a row.
     pub(crate) u: [Row<u32, N>; 2],
     /// How far integers are shifted.
     pub(crate) shift: u32,
@@ -72,7 +71,7 @@ impl Io {
         Box::new(Io {
             f,
             i: [(); 2].map(|()| Row::new(|| random() as i32)),
-            u: [Row::new(&mut random), Row::new(|| random() % N as u32)],
+            u: [(); 2].map(|()| Row::new(&mut random)),
             shift: 5,
             bits: Row::new(|| 0),
             floats: Row::new(|| 0.0),

@@ -97,7 +97,8 @@ fn argmin_all<S: Simd>(s: S, io: &mut Io) {
     for x in io.f[0].0.chunks_exact(S::LANES) {
         let x = S::f32s::load(s, x);
         let less = x.lt(least);
-        least = less.select(x, least);
+        // The old one of equals, and for NaN.
+        least = x.min(least);
         place = less.select(here, place);
         here += step;
     }

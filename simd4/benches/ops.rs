@@ -14,6 +14,9 @@ pub(crate) struct Op {
     pub(crate) ours: fn(Level, &mut Io),
 }
 
+/// How far numbers of 32 bits go down to be indices of a row.
+pub(crate) const INDEX_SHIFT: u32 = 32 - N.trailing_zeros();
+
 /// What is open for values that have no such integer.
 const IN_RANGE_ONLY: [&str; 3] = ["to_i32_fast", "to_u32_fast", "floor_to_int"];
 
@@ -96,6 +99,14 @@ fn fold<S: Simd>(s: S, io: &mut Io, op: impl Fn(Regs<S>) -> u32) {
     }
 }
 
+/// A register to a float.
+#[inline(always)]
+fn reduce<S: Simd>(s: S, io: &mut Io, op: impl Fn(Regs<S>) -> f32) {
+    for k in 0..N / S::LANES {
+        io.floats.0[k] = op(regs(s, io, k * S::LANES));
+    }
+}
+
 /// The nearest floats of signed integers.
 #[inline(always)]
 fn from_i32<S: Simd>(r: Regs<S>) -> S::u32s {
@@ -144,7 +155,7 @@ fn store_masked<S: Simd>(s: S, io: &mut Io) {
 fn gather<S: Simd>(s: S, io: &mut Io) {
     for k in 0..N / S::LANES {
         let at = k * S::LANES;
-        let index = S::u32s::load(s, &io.u[1].0[at..]);
+        let index = regs(s, io, at).u.shr(INDEX_SHIFT);
         S::f32s::gather(&io.f[0].0, index).store(&mut io.floats.0[at..]);
     }
 }
@@ -250,9 +261,9 @@ ops! {
         compress_store = compress_store;
     }
     "reduce" {
-        reduce_sum = fold |r| r.a.reduce_sum().to_bits();
-        reduce_product = fold |r| r.a.reduce_product().to_bits();
-        reduce_min = fold |r| r.a.reduce_min().to_bits();
+        reduce_sum = reduce |r| r.a.reduce_sum();
+        reduce_product = reduce |r| r.a.reduce_product();
+        reduce_min = reduce |r| r.a.reduce_min();
         reduce_max_u32 = fold |r| r.u.reduce_max();
         argmin = fold |r| match r.a.argmin(r.b.lt(r.c)) {
             Some((lane, value)) => value.to_bits() ^ lane as u32,

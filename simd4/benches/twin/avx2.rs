@@ -5,6 +5,7 @@ use core::arch::x86_64::*;
 use super::{Twin, twins};
 use crate::io::{Io, N};
 use crate::kernels::{BOXES, DIRECTION, INVERSE, ORIGIN, TRIANGLES};
+use crate::ops::INDEX_SHIFT;
 
 const LANES: usize = 8;
 
@@ -300,19 +301,19 @@ twins! { "avx2,fma,bmi1,bmi2,lzcnt,popcnt";
         )
     };
 
-    reduce_sum = fold |r| {
+    reduce_sum = reduce |r| {
         let (low, high) = halves(r.a);
         let x = _mm_add_ps(low, high);
         let x = _mm_add_ps(x, _mm_movehl_ps(x, x));
-        _mm_cvtss_f32(_mm_add_ss(x, _mm_movehdup_ps(x))).to_bits()
+        _mm_cvtss_f32(_mm_add_ss(x, _mm_movehdup_ps(x)))
     };
-    reduce_product = fold |r| {
+    reduce_product = reduce |r| {
         let (low, high) = halves(r.a);
         let x = _mm_mul_ps(low, high);
         let x = _mm_mul_ps(x, _mm_movehl_ps(x, x));
-        _mm_cvtss_f32(_mm_mul_ss(x, _mm_movehdup_ps(x))).to_bits()
+        _mm_cvtss_f32(_mm_mul_ss(x, _mm_movehdup_ps(x)))
     };
-    reduce_min = fold |r| hmin_ps(r.a).to_bits();
+    reduce_min = reduce |r| hmin_ps(r.a);
     reduce_max_u32 = fold |r| hmax_epu32(r.u);
     argmin = fold |r| {
         let allowed = _mm256_and_ps(lt_ps(r.b, r.c), is_number(r.a));
@@ -325,9 +326,8 @@ twins! { "avx2,fma,bmi1,bmi2,lzcnt,popcnt";
             0 => u32::MAX,
             equal => {
                 let lane = equal.trailing_zeros();
-                let mut lanes = [0.0; 8];
-                store(&mut lanes, 0, r.a);
-                lanes[lane as usize & 7].to_bits() ^ lane
+                let value = _mm256_permutevar8x32_ps(r.a, _mm256_set1_epi32(lane as i32));
+                _mm256_cvtss_f32(value).to_bits() ^ lane
             }
         }
     };
@@ -353,22 +353,29 @@ fn swizzle(io: &mut Io) {
     }
 }
 
-/// The order of lanes from BMI2: the mask's lanes of 0 to 7, one byte a lane.
-#[target_feature(enable = "avx2,bmi2,popcnt")]
+/// Every lane is written to where the next one of the mask goes; what the last of them wrote
+/// behind the end is put right.
+#[target_feature(enable = "avx2,bmi1,popcnt")]
 fn compress_store(io: &mut Io) {
     let mut n = 0;
     for at in (0..N).step_by(LANES) {
         let Regs { a, b, .. } = Regs::load(io, at);
-        let mask = _mm256_movemask_ps(lt_ps(a, b)) as u32;
-        let bytes = _pdep_u64(mask.into(), 0x0101_0101_0101_0101) * 0xff;
-        let order = _pext_u64(0x0706_0504_0302_0100, bytes) as i64;
-        let order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(order));
-        let a = _mm256_permutevar8x32_ps(a, order);
-        let count = mask.count_ones();
-        let kept = _mm256_cmpgt_epi32(_mm256_set1_epi32(count as i32), iota());
-        let x = blend(_mm256_castsi256_ps(kept), a, load(&io.floats.0, n));
-        store(&mut io.floats.0, n, x);
-        n += count as usize;
+        let mask = _mm256_movemask_ps(lt_ps(a, b)) as usize;
+        let mut lanes = [0.0; LANES];
+        store(&mut lanes, 0, a);
+        let count = mask.count_ones() as usize;
+        let mut to = io.floats.0[n..].as_mut_ptr();
+        // SAFETY: the row is twice as long as all that is written.
+        unsafe {
+            let end = to.add(count);
+            let behind = *end;
+            for (lane, x) in lanes.into_iter().enumerate() {
+                *to = x;
+                to = to.add(mask >> lane & 1);
+            }
+            *end = behind;
+        }
+        n += count;
     }
     io.bits.0[0] = n as u32;
 }
@@ -393,11 +400,14 @@ fn load_masked(io: &mut Io) {
     }
 }
 
+/// Not by the instruction for it, which is slow on half of the CPUs; `blend` before a store would
+/// become that one.
 #[target_feature(enable = "avx2")]
 fn store_masked(io: &mut Io) {
     for at in (0..N).step_by(LANES) {
         let Regs { a, b, .. } = Regs::load(io, at);
-        let x = blend(lt_ps(a, b), a, load(&io.floats.0, at));
+        let (mask, old) = (lt_ps(a, b), load(&io.floats.0, at));
+        let x = _mm256_or_ps(_mm256_and_ps(mask, a), _mm256_andnot_ps(mask, old));
         store(&mut io.floats.0, at, x);
     }
 }
@@ -406,7 +416,7 @@ fn store_masked(io: &mut Io) {
 fn gather(io: &mut Io) {
     let last = _mm256_set1_epi32(N as i32 - 1);
     for at in (0..N).step_by(LANES) {
-        let index = load_epi32(&io.u[1].0, at);
+        let index = _mm256_srli_epi32::<{ INDEX_SHIFT as i32 }>(load_epi32(&io.u[0].0, at));
         let inside = _mm256_cmpeq_epi32(_mm256_min_epu32(index, last), index);
         assert!(_mm256_movemask_epi8(inside) == -1);
         // SAFETY: the indices are within the row.
@@ -544,26 +554,21 @@ fn floor_to_int(io: &mut Io) {
     }
 }
 
-/// Two matrices at a time: the rows of one in the lower halves, of the other in the higher.
+/// In registers of four lanes: two matrices at a time in eight take longer to bring together.
 #[target_feature(enable = "avx2")]
 fn transpose4x4(io: &mut Io) {
-    for at in (0..N).step_by(32) {
-        let (ab, cd) = (load(&io.f[0].0, at), load(&io.f[0].0, at + 8));
-        let (ef, gh) = (load(&io.f[0].0, at + 16), load(&io.f[0].0, at + 24));
-        let (ae, bf) =
-            (_mm256_permute2f128_ps::<0x20>(ab, ef), _mm256_permute2f128_ps::<0x31>(ab, ef));
-        let (cg, dh) =
-            (_mm256_permute2f128_ps::<0x20>(cd, gh), _mm256_permute2f128_ps::<0x31>(cd, gh));
-        let (ab_low, ab_high) = (_mm256_unpacklo_ps(ae, bf), _mm256_unpackhi_ps(ae, bf));
-        let (cd_low, cd_high) = (_mm256_unpacklo_ps(cg, dh), _mm256_unpackhi_ps(cg, dh));
-        let x = _mm256_shuffle_ps::<0b_01_00_01_00>(ab_low, cd_low);
-        let y = _mm256_shuffle_ps::<0b_11_10_11_10>(ab_low, cd_low);
-        let z = _mm256_shuffle_ps::<0b_01_00_01_00>(ab_high, cd_high);
-        let w = _mm256_shuffle_ps::<0b_11_10_11_10>(ab_high, cd_high);
-        store(&mut io.floats.0, at, _mm256_permute2f128_ps::<0x20>(x, y));
-        store(&mut io.floats.0, at + 8, _mm256_permute2f128_ps::<0x20>(z, w));
-        store(&mut io.floats.0, at + 16, _mm256_permute2f128_ps::<0x31>(x, y));
-        store(&mut io.floats.0, at + 24, _mm256_permute2f128_ps::<0x31>(z, w));
+    for at in (0..N).step_by(16) {
+        let (from, to) = (io.f[0].0[at..].as_ptr(), io.floats.0[at..].as_mut_ptr());
+        // SAFETY: 16 elements are read and written.
+        unsafe {
+            let (mut a, mut b) = (_mm_loadu_ps(from), _mm_loadu_ps(from.add(4)));
+            let (mut c, mut d) = (_mm_loadu_ps(from.add(8)), _mm_loadu_ps(from.add(12)));
+            _MM_TRANSPOSE4_PS(&mut a, &mut b, &mut c, &mut d);
+            _mm_storeu_ps(to, a);
+            _mm_storeu_ps(to.add(4), b);
+            _mm_storeu_ps(to.add(8), c);
+            _mm_storeu_ps(to.add(12), d);
+        }
     }
 }
 

@@ -63,6 +63,12 @@ macro_rules! twins {
             store(&mut $io.floats.0, N + at, y);
         }
     };
+    (@reduce $io:ident, $r:ident, $body:expr) => {
+        for k in 0..N / LANES {
+            let $r = Regs::load($io, k * LANES);
+            $io.floats.0[k] = $body;
+        }
+    };
     (@fold $io:ident, $r:ident, $body:expr) => {
         for k in 0..N / LANES {
             let $r = Regs::load($io, k * LANES);

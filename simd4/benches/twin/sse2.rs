@@ -5,6 +5,7 @@ use core::arch::x86_64::*;
 use super::{Twin, twins};
 use crate::io::{Io, N};
 use crate::kernels::{BOXES, DIRECTION, INVERSE, ORIGIN, TRIANGLES};
+use crate::ops::INDEX_SHIFT;
 
 pub(super) const LANES: usize = 4;
 
@@ -360,15 +361,15 @@ twins! { "sse2";
         _mm_shuffle_ps::<0b_11_01_11_01>(r.a, r.b),
     );
 
-    reduce_sum = fold |r| {
+    reduce_sum = reduce |r| {
         let x = _mm_add_ps(r.a, high(r.a));
-        _mm_cvtss_f32(_mm_add_ss(x, second(x))).to_bits()
+        _mm_cvtss_f32(_mm_add_ss(x, second(x)))
     };
-    reduce_product = fold |r| {
+    reduce_product = reduce |r| {
         let x = _mm_mul_ps(r.a, high(r.a));
-        _mm_cvtss_f32(_mm_mul_ss(x, second(x))).to_bits()
+        _mm_cvtss_f32(_mm_mul_ss(x, second(x)))
     };
-    reduce_min = fold |r| hmin_ps(r.a).to_bits();
+    reduce_min = reduce |r| hmin_ps(r.a);
     reduce_max_u32 = fold |r| {
         let x = max_epu32(r.u, _mm_shuffle_epi32::<0b_11_10_11_10>(r.u));
         _mm_cvtsi128_si32(max_epu32(x, _mm_shuffle_epi32::<1>(x))) as u32
@@ -404,46 +405,31 @@ fn swizzle(io: &mut Io) {
     }
 }
 
-/// Moves every lane down by the number of lanes missing below it, by one and then by two.
+/// Every lane is written to where the next one of the mask goes; what the last of them wrote
+/// behind the end is put right.
 #[target_feature(enable = "sse2")]
 fn compress_store(io: &mut Io) {
-    /// For each mask, which lanes take the lane one above, and which then the lane two above.
-    const STEPS: [[[i32; 4]; 2]; 16] = steps();
-    const fn steps() -> [[[i32; 4]; 2]; 16] {
-        let mut steps = [[[0; 4]; 2]; 16];
-        let mut mask = 0;
-        while mask < 16 {
-            let (mut lane, mut missing) = (0, 0);
-            while lane < 4 {
-                if mask >> lane & 1 == 0 {
-                    missing += 1;
-                } else {
-                    if missing & 1 == 1 {
-                        steps[mask][0][lane - 1] = -1;
-                    }
-                    if missing & 2 == 2 {
-                        steps[mask][1][lane - missing] = -1;
-                    }
-                }
-                lane += 1;
-            }
-            mask += 1;
-        }
-        steps
-    }
     let mut n = 0;
     for at in (0..N).step_by(LANES) {
         let Regs { a, b, .. } = Regs::load(io, at);
         let mask = _mm_movemask_ps(_mm_cmplt_ps(a, b)) as usize;
-        let [one, two] = &STEPS[mask];
-        let up = _mm_castsi128_ps(_mm_srli_si128::<4>(bits(a)));
-        let a = blend(_mm_castsi128_ps(load_epi32(one, 0)), up, a);
-        let a = blend(_mm_castsi128_ps(load_epi32(two, 0)), high(a), a);
+        let mut lanes = [0.0; LANES];
+        store(&mut lanes, 0, a);
         let count = (0x4332_3221_3221_2110_u64 >> (4 * mask)) as usize & 0xf;
-        let behind = load(&io.floats.0, n);
-        let kept = _mm_cmpgt_epi32(_mm_set1_epi32(count as i32), _mm_set_epi32(3, 2, 1, 0));
-        store(&mut io.floats.0, n, blend(_mm_castsi128_ps(kept), a, behind));
-        n += count;
+        let (to, end) = (io.floats.0[n..].as_mut_ptr(), n + count);
+        // SAFETY: the row is twice as long as all that is written.
+        unsafe {
+            let behind = *to.add(count);
+            *to = lanes[0];
+            let to = to.add(mask & 1);
+            *to = lanes[1];
+            let to = to.add(mask >> 1 & 1);
+            *to = lanes[2];
+            let to = to.add(mask >> 2 & 1);
+            *to = lanes[3];
+            *to.add(mask >> 3) = behind;
+        }
+        n = end;
     }
     io.bits.0[0] = n as u32;
 }
@@ -495,14 +481,16 @@ fn store_masked(io: &mut Io) {
 
 #[target_feature(enable = "sse2")]
 fn gather(io: &mut Io) {
+    let row = &io.f[0].0;
     for at in (0..N).step_by(LANES) {
-        let row = &io.f[0].0;
-        let index = &io.u[1].0[at..at + LANES];
+        let index = _mm_srli_epi32::<{ INDEX_SHIFT as i32 }>(load_epi32(&io.u[0].0, at));
+        let low = _mm_cvtsi128_si64(index) as u64;
+        let high = _mm_cvtsi128_si64(_mm_unpackhi_epi64(index, index)) as u64;
         let x = _mm_setr_ps(
-            row[index[0] as usize],
-            row[index[1] as usize],
-            row[index[2] as usize],
-            row[index[3] as usize],
+            row[low as u32 as usize],
+            row[(low >> 32) as usize],
+            row[high as u32 as usize],
+            row[(high >> 32) as usize],
         );
         store(&mut io.floats.0, at, x);
     }

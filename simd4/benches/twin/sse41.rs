@@ -39,7 +39,7 @@ fn rcp(x: __m128) -> __m128 {
 }
 
 twins! { "sse4.1";
-    in_full: compress_store load_masked store_masked
+    in_full: load_masked store_masked
         slab moller_trumbore argmin_all floor_to_int;
 
     min_num = map |r| {
@@ -105,43 +105,6 @@ twins! { "sse4.1";
             }
         }
     };
-}
-
-#[target_feature(enable = "sse4.1")]
-fn compress_store(io: &mut Io) {
-    /// For each mask, the bytes of its lanes one after the other.
-    const ORDERS: [[u8; 16]; 16] = orders();
-    const fn orders() -> [[u8; 16]; 16] {
-        let mut orders = [[0; 16]; 16];
-        let mut mask = 0;
-        while mask < 16 {
-            let (mut lane, mut to) = (0, 0);
-            while lane < 4 {
-                let mut byte = 0;
-                while byte < 4 && mask >> lane & 1 == 1 {
-                    orders[mask][to] = 4 * lane as u8 + byte;
-                    (byte, to) = (byte + 1, to + 1);
-                }
-                lane += 1;
-            }
-            mask += 1;
-        }
-        orders
-    }
-    let mut n = 0;
-    for at in (0..N).step_by(LANES) {
-        let Regs { a, b, .. } = Regs::load(io, at);
-        let mask = _mm_movemask_ps(_mm_cmplt_ps(a, b)) as usize;
-        // SAFETY: the table's entries are of a register's size.
-        let order = unsafe { _mm_loadu_si128(ORDERS[mask].as_ptr().cast()) };
-        let a = _mm_castsi128_ps(_mm_shuffle_epi8(bits(a), order));
-        let count = (0x4332_3221_3221_2110_u64 >> (4 * mask)) as usize & 0xf;
-        let kept = _mm_cmpgt_epi32(_mm_set1_epi32(count as i32), _mm_set_epi32(3, 2, 1, 0));
-        let x = blend(_mm_castsi128_ps(kept), a, load(&io.floats.0, n));
-        store(&mut io.floats.0, n, x);
-        n += count;
-    }
-    io.bits.0[0] = n as u32;
 }
 
 #[target_feature(enable = "sse4.1")]

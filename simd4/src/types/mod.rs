@@ -135,6 +135,9 @@ pub trait Lanes:
     /// If the mask has a lane that the slice lacks.
     #[inline(always)]
     fn load_masked(s: Self::Simd, from: &[Self::Elem], mask: Self::Mask, fill: Self::Elem) -> Self {
+        if from.len() >= Self::LANES {
+            return Self::select(mask, Self::load(s, from), Self::splat(s, fill));
+        }
         let bits = mask.bitmask();
         Self::from_array(
             s,
@@ -151,6 +154,9 @@ pub trait Lanes:
     /// If the mask has a lane that the slice lacks.
     #[inline(always)]
     fn store_masked(self, to: &mut [Self::Elem], mask: Self::Mask) {
+        if to.len() >= Self::LANES {
+            return Self::merge(mask, self, Self::load(self.token(), to)).store(to);
+        }
         let (a, bits) = (self.to_array(), mask.bitmask());
         let mut i = 0;
         while i < Self::LANES {
@@ -233,6 +239,13 @@ pub trait Lanes:
 
     /// `mask ? a : b`, lane by lane.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    /// The same, for storing where `b` was loaded.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn merge(mask: Self::Mask, a: Self, b: Self) -> Self {
+        Self::select(mask, a, b)
+    }
 
     // Moves
 

@@ -109,7 +109,7 @@ fn argmin_all<S: Simd>(s: S, io: &mut Io) {
     for at in (0..N).step_by(S::f32s::LEN) {
         let x = load(s, io, 0, at);
         let less = x.simd_lt(least);
-        least = less.select(x, least);
+        least = x.min(least);
         place = less.select(here, place);
         here += S::f32s::LEN as u32;
     }

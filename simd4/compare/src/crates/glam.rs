@@ -94,7 +94,7 @@ fn argmin_all(io: &mut Io) {
     for at in (0..N).step_by(4) {
         let x = load(io, 0, at);
         let less = x.cmplt(least);
-        least = Vec4::select(less, x, least);
+        least = x.min(least);
         place = Vec4::select(less, here, place);
         here += 4.0;
     }

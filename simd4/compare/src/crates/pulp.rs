@@ -133,7 +133,7 @@ fn argmin_all<S: Simd>(s: S, io: &mut Io) {
     let mut here = s.partial_load_u32s(&IOTA[..S::U32_LANES]);
     for &x in S::as_simd_f32s(&io.f[0].0).0 {
         let less = s.less_than_f32s(x, least);
-        least = s.select_f32s(less, x, least);
+        least = s.min_f32s(x, least);
         place = s.select_u32s(less, here, place);
         here = s.add_u32s(here, s.splat_u32s(S::U32_LANES as u32));
     }

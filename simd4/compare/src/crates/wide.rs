@@ -94,7 +94,7 @@ fn argmin_all(io: &mut Io) {
     for at in (0..N).step_by(8) {
         let x = load(io, 0, at);
         let less = x.simd_lt(least);
-        least = less.select(x, least);
+        least = x.fast_min(least);
         place = u32x8::from_ne_bytes(less.to_ne_bytes()).select(here, place);
         here += u32x8::splat(8);
     }
