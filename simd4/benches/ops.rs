@@ -107,6 +107,18 @@ fn reduce<S: Simd>(s: S, io: &mut Io, op: impl Fn(Regs<S>) -> f32) {
     }
 }
 
+/// The least under a mask and where it is.
+#[inline(always)]
+fn argmin<S: Simd>(s: S, io: &mut Io) {
+    for k in 0..N / S::LANES {
+        let Regs { a, b, c, .. } = regs(s, io, k * S::LANES);
+        if let Some((lane, value)) = a.argmin(b.lt(c)) {
+            io.bits.0[k] = lane as u32;
+            io.floats.0[k] = value;
+        }
+    }
+}
+
 /// The nearest floats of signed integers.
 #[inline(always)]
 fn from_i32<S: Simd>(r: Regs<S>) -> S::u32s {
@@ -265,10 +277,7 @@ ops! {
         reduce_product = reduce |r| r.a.reduce_product();
         reduce_min = reduce |r| r.a.reduce_min();
         reduce_max_u32 = fold |r| r.u.reduce_max();
-        argmin = fold |r| match r.a.argmin(r.b.lt(r.c)) {
-            Some((lane, value)) => value.to_bits() ^ lane as u32,
-            None => u32::MAX,
-        };
+        argmin = argmin;
     }
     "memory" {
         copy = map |r| r.a.to_bits();

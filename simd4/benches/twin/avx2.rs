@@ -193,8 +193,29 @@ fn hmin_ps(x: __m256) -> f32 {
     _mm_cvtss_f32(_mm_min_ps(x, _mm_movehdup_ps(x)))
 }
 
+/// The least of the mask's lanes and where it is.
+#[target_feature(enable = "avx2,bmi1")]
+#[inline]
+fn argmin_ps(x: __m256, mask: __m256) -> Option<(usize, f32)> {
+    let allowed = _mm256_and_ps(mask, is_number(x));
+    let masked = blend(allowed, x, _mm256_set1_ps(f32::INFINITY));
+    let least = _mm256_min_ps(masked, _mm256_permute2f128_ps::<1>(masked, masked));
+    let least = _mm256_min_ps(least, _mm256_permute_ps::<0b_01_00_11_10>(least));
+    let least = _mm256_min_ps(least, _mm256_permute_ps::<0b_10_11_00_01>(least));
+    let equal = _mm256_and_ps(allowed, _mm256_cmp_ps::<_CMP_EQ_OQ>(x, least));
+    match _mm256_movemask_ps(equal) {
+        0 => None,
+        equal => {
+            let lane = equal.trailing_zeros();
+            let first = _mm256_castsi128_si256(_mm_cvtsi32_si128(lane as i32));
+            let value = _mm256_cvtss_f32(_mm256_permutevar8x32_ps(x, first));
+            Some((lane as usize, value))
+        }
+    }
+}
+
 twins! { "avx2,fma,bmi1,bmi2,lzcnt,popcnt";
-    in_full: swizzle compress_store prefix load_masked store_masked gather
+    in_full: argmin swizzle compress_store prefix load_masked store_masked gather
         dot slab moller_trumbore argmin_all rsqrt_normalise floor_to_int transpose4x4 hmin;
 
     add = map |r| bits(_mm256_add_ps(r.a, r.b));
@@ -315,24 +336,19 @@ twins! { "avx2,fma,bmi1,bmi2,lzcnt,popcnt";
     };
     reduce_min = reduce |r| hmin_ps(r.a);
     reduce_max_u32 = fold |r| hmax_epu32(r.u);
-    argmin = fold |r| {
-        let allowed = _mm256_and_ps(lt_ps(r.b, r.c), is_number(r.a));
-        let x = blend(allowed, r.a, _mm256_set1_ps(f32::INFINITY));
-        let least = _mm256_min_ps(x, _mm256_permute2f128_ps::<1>(x, x));
-        let least = _mm256_min_ps(least, _mm256_permute_ps::<0b_01_00_11_10>(least));
-        let least = _mm256_min_ps(least, _mm256_permute_ps::<0b_10_11_00_01>(least));
-        let equal = _mm256_and_ps(allowed, _mm256_cmp_ps::<_CMP_EQ_OQ>(x, least));
-        match _mm256_movemask_ps(equal) {
-            0 => u32::MAX,
-            equal => {
-                let lane = equal.trailing_zeros();
-                let value = _mm256_permutevar8x32_ps(r.a, _mm256_set1_epi32(lane as i32));
-                _mm256_cvtss_f32(value).to_bits() ^ lane
-            }
-        }
-    };
 
     copy = map |r| bits(r.a);
+}
+
+#[target_feature(enable = "avx2,bmi1")]
+fn argmin(io: &mut Io) {
+    for k in 0..N / LANES {
+        let Regs { a, b, c, .. } = Regs::load(io, k * LANES);
+        if let Some((lane, value)) = argmin_ps(a, lt_ps(b, c)) {
+            io.bits.0[k] = lane as u32;
+            io.floats.0[k] = value;
+        }
+    }
 }
 
 /// The greatest of eight.

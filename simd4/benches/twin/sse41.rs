@@ -38,8 +38,27 @@ fn rcp(x: __m128) -> __m128 {
     blend(_mm_cmpord_ps(better, better), better, r)
 }
 
+/// The least of the mask's lanes and where it is.
+#[target_feature(enable = "sse4.1")]
+#[inline]
+fn argmin_ps(x: __m128, mask: __m128) -> Option<(usize, f32)> {
+    let allowed = _mm_and_ps(mask, _mm_cmpord_ps(x, x));
+    let masked = blend(allowed, x, _mm_set1_ps(f32::INFINITY));
+    let least = _mm_min_ps(masked, _mm_shuffle_ps::<0b_01_00_11_10>(masked, masked));
+    let least = _mm_min_ps(least, _mm_shuffle_ps::<0b_10_11_00_01>(least, least));
+    match _mm_movemask_ps(_mm_and_ps(allowed, _mm_cmpeq_ps(x, least))) {
+        0 => None,
+        equal => {
+            let lane = equal.trailing_zeros() as usize;
+            let mut lanes = [0.0; LANES];
+            store(&mut lanes, 0, x);
+            Some((lane, lanes[lane % LANES]))
+        }
+    }
+}
+
 twins! { "sse4.1";
-    in_full: load_masked store_masked
+    in_full: argmin load_masked store_masked
         slab moller_trumbore argmin_all floor_to_int;
 
     min_num = map |r| {
@@ -90,21 +109,17 @@ twins! { "sse4.1";
         let x = _mm_max_epu32(r.u, _mm_shuffle_epi32::<0b_11_10_11_10>(r.u));
         _mm_cvtsi128_si32(_mm_max_epu32(x, _mm_shuffle_epi32::<1>(x))) as u32
     };
-    argmin = fold |r| {
-        let allowed = _mm_and_ps(_mm_cmplt_ps(r.b, r.c), _mm_cmpord_ps(r.a, r.a));
-        let x = blend(allowed, r.a, _mm_set1_ps(f32::INFINITY));
-        let least = _mm_min_ps(x, _mm_shuffle_ps::<0b_01_00_11_10>(x, x));
-        let least = _mm_min_ps(least, _mm_shuffle_ps::<0b_10_11_00_01>(least, least));
-        match _mm_movemask_ps(_mm_and_ps(allowed, _mm_cmpeq_ps(x, least))) {
-            0 => u32::MAX,
-            equal => {
-                let lane = equal.trailing_zeros();
-                let mut lanes = [0.0; 4];
-                store(&mut lanes, 0, r.a);
-                lanes[lane as usize & 3].to_bits() ^ lane
-            }
+}
+
+#[target_feature(enable = "sse4.1")]
+fn argmin(io: &mut Io) {
+    for k in 0..N / LANES {
+        let Regs { a, b, c, .. } = Regs::load(io, k * LANES);
+        if let Some((lane, value)) = argmin_ps(a, _mm_cmplt_ps(b, c)) {
+            io.bits.0[k] = lane as u32;
+            io.floats.0[k] = value;
         }
-    };
+    }
 }
 
 #[target_feature(enable = "sse4.1")]

@@ -329,6 +329,13 @@ pub trait Lanes:
     #[doc(hidden)]
     fn reduce<F: reduce::Fold>(self) -> Self::Elem;
 
+    /// One lane of all, in every lane.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn fold_all<F: reduce::Fold>(self) -> Self {
+        Self::splat(self.token(), self.reduce::<F>())
+    }
+
     /// The sum of the lanes, added in the order of [`spec::reduce`](crate::spec::reduce).
     #[inline(always)]
     fn reduce_sum(self) -> Self::Elem {
@@ -361,8 +368,8 @@ pub trait Lanes:
     fn argmin(self, mask: Self::Mask) -> Option<(usize, Self::Elem)> {
         let allowed = mask & self.eq(self);
         let greatest = Self::splat(self.token(), Self::Elem::GREATEST);
-        let least = Self::select(allowed, self, greatest).reduce_min();
-        let lane = (allowed & self.eq(Self::splat(self.token(), least))).first()?;
+        let least = Self::select(allowed, self, greatest).fold_all::<reduce::Min>();
+        let lane = (allowed & self.eq(least)).first()?;
         Some((lane, self.lane(lane)))
     }
 
@@ -372,8 +379,8 @@ pub trait Lanes:
     fn argmax(self, mask: Self::Mask) -> Option<(usize, Self::Elem)> {
         let allowed = mask & self.eq(self);
         let least = Self::splat(self.token(), Self::Elem::LEAST);
-        let greatest = Self::select(allowed, self, least).reduce_max();
-        let lane = (allowed & self.eq(Self::splat(self.token(), greatest))).first()?;
+        let greatest = Self::select(allowed, self, least).fold_all::<reduce::Max>();
+        let lane = (allowed & self.eq(greatest)).first()?;
         Some((lane, self.lane(lane)))
     }
 }

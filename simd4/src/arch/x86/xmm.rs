@@ -190,6 +190,10 @@ impl<L: Xmm> Lanes for f32x4<L> {
     fn reduce<F: Fold>(self) -> f32 {
         reduce::four::<F, Self>(self)
     }
+    #[inline(always)]
+    fn fold_all<F: Fold>(self) -> Self {
+        reduce::four_all::<F, Self>(self)
+    }
 }
 
 conversions! { [L: Xmm] f32x4<L>, L }
@@ -339,6 +343,10 @@ macro_rules! integers {
             #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
                 reduce::four::<F, Self>(self)
+            }
+            #[inline(always)]
+            fn fold_all<F: Fold>(self) -> Self {
+                reduce::four_all::<F, Self>(self)
             }
         }
 

@@ -67,6 +67,16 @@ impl<L: Ymm> Lanes for f32x8<L> {
     fn to_array(self) -> [f32; 8] {
         proven!(transmute::<__m256, [f32; 8]>(self.0))
     }
+    /// In the register: through memory it takes several times as long where the stack is such that
+    /// the register straddles two pages.
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f32 {
+        assert!(lane < 8, "lane {lane} of 8");
+        proven!({
+            let lane = _mm256_castsi128_si256(_mm_cvtsi32_si128(lane as i32));
+            _mm256_cvtss_f32(_mm256_permutevar8x32_ps(self.0, lane))
+        })
+    }
     #[inline(always)]
     fn min(self, b: Self) -> Self {
         f32x8(proven!(_mm256_min_ps(self.0, b.0)), self.1)
@@ -240,6 +250,14 @@ macro_rules! integers {
             #[inline(always)]
             fn to_array(self) -> [$elem; 8] {
                 proven!(transmute::<__m256i, [$elem; 8]>(self.0))
+            }
+            #[inline(always)]
+            fn lane(self, lane: usize) -> $elem {
+                assert!(lane < 8, "lane {lane} of 8");
+                proven!({
+                    let lane = _mm256_castsi128_si256(_mm_cvtsi32_si128(lane as i32));
+                    _mm256_cvtsi256_si32(_mm256_permutevar8x32_epi32(self.0, lane)) as $elem
+                })
             }
             #[inline(always)]
             fn min(self, b: Self) -> Self {
