@@ -114,9 +114,7 @@ pub trait Lanes:
         if from.len() >= Self::LANES {
             return Self::load(s, from);
         }
-        let mut a = Self::splat(s, fill).to_array();
-        a.as_mut()[..from.len()].copy_from_slice(from);
-        Self::from_array(s, a)
+        Self::from_array(s, prefix(from, fill))
     }
 
     /// Writes as many lanes as a slice of any length takes.
@@ -126,7 +124,15 @@ pub trait Lanes:
         if n >= Self::LANES {
             return self.store(to);
         }
-        to.copy_from_slice(&self.to_array().as_ref()[..n]);
+        let a = self.to_array();
+        // Copies of fixed lengths, which need no call.
+        let mut at = 0;
+        for length in [8, 4, 2, 1] {
+            if n & length != 0 && Self::LANES > length {
+                to[at..at + length].copy_from_slice(&a.as_ref()[at..at + length]);
+                at += length;
+            }
+        }
     }
 
     /// `mask ? from[lane] : fill`: only the elements of the mask's lanes are read.
@@ -194,15 +200,32 @@ pub trait Lanes:
     #[inline(always)]
     fn compress_store(self, mask: Self::Mask, to: &mut [Self::Elem]) -> usize {
         let (a, bits) = (self.to_array(), mask.bitmask());
+        let count = bits.count_ones() as usize;
+        if to.len() <= Self::LANES {
+            let to = &mut to[..count];
+            let (mut i, mut n) = (0, 0);
+            while n < count {
+                if bits >> i & 1 == 1 {
+                    to[n] = a.as_ref()[i];
+                    n += 1;
+                }
+                i += 1;
+            }
+            return count;
+        }
+        // Without branches: every lane goes to where the mask's next one goes. What the last of
+        // them leaves behind the end is put right.
+        let to = &mut to[..=Self::LANES];
+        let behind = to[count];
         let (mut i, mut n) = (0, 0);
         while i < Self::LANES {
-            if bits >> i & 1 == 1 {
-                to[n] = a.as_ref()[i];
-                n += 1;
-            }
+            // It is not above i: this spares the check of bounds.
+            to[n % Self::LANES] = a.as_ref()[i];
+            n += (bits >> i & 1) as usize;
             i += 1;
         }
-        n
+        to[count] = behind;
+        count
     }
 
     // Least and greatest, comparisons
@@ -383,6 +406,28 @@ pub trait Lanes:
         let lane = (allowed & self.eq(greatest)).first()?;
         Some((lane, self.lane(lane)))
     }
+}
+
+/// The elements of a slice that has fewer than there are lanes, and then `fill`.
+#[inline(always)]
+fn prefix<T: Element, A: LaneArray<T>>(from: &[T], fill: T) -> A {
+    // The lanes of one register by number, so that they need not go through memory.
+    let [a, b, c] = match *from {
+        [a, b, c, ..] => [a, b, c],
+        [a, b] => [a, b, fill],
+        [a] => [a, fill, fill],
+        [] => [fill; 3],
+    };
+    A::from_fn(
+        #[inline(always)]
+        |i| match i {
+            0 => a,
+            1 => b,
+            2 => c,
+            _ if i < from.len() => from[i],
+            _ => fill,
+        },
+    )
 }
 
 /// Lanes of two vectors in a new order: indices count through `a` and then through `b`.
