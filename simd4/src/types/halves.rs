@@ -123,6 +123,10 @@ where
         Halves(V::merge(m.0, a.0, b.0), V::merge(m.1, a.1, b.1))
     }
     #[inline(always)]
+    fn masked(self, m: Self::Mask) -> Self {
+        Halves(self.0.masked(m.0), self.1.masked(m.1))
+    }
+    #[inline(always)]
     fn zip(self, other: Self) -> (Self, Self) {
         let (low, high) = (self.0.zip(other.0), self.1.zip(other.1));
         (Halves(low.0, low.1), Halves(high.0, high.1))

@@ -270,6 +270,13 @@ pub trait Lanes:
         Self::select(mask, a, b)
     }
 
+    /// `mask ? self : 0`, lane by lane.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn masked(self, mask: Self::Mask) -> Self {
+        Self::select(mask, self, Self::splat(self.token(), Self::Elem::default()))
+    }
+
     // Moves
 
     /// Lane `i` of the result is lane `I::INDEX[i]`; [`swizzle!`](crate::swizzle!) takes the

@@ -18,9 +18,13 @@ pub trait Xmm: Simd {
     fn blend(self, m: __m128, a: __m128, b: __m128) -> __m128 {
         proven!(_mm_blendv_ps(b, a, m))
     }
+    /// By lanes and not by bytes: the compiler then knows what the comparison before it means.
     #[inline(always)]
     fn blend_i32(self, m: __m128i, a: __m128i, b: __m128i) -> __m128i {
-        proven!(_mm_blendv_epi8(b, a, m))
+        proven!({
+            let (m, a, b) = (_mm_castsi128_ps(m), _mm_castsi128_ps(a), _mm_castsi128_ps(b));
+            _mm_castps_si128(_mm_blendv_ps(b, a, m))
+        })
     }
     #[inline(always)]
     fn min_i32(self, a: __m128i, b: __m128i) -> __m128i {
@@ -187,6 +191,10 @@ impl<L: Xmm> Lanes for f32x4<L> {
         f32x4(a.1.blend(m.0, a.0, b.0), a.1)
     }
     #[inline(always)]
+    fn masked(self, m: mask32x4<L>) -> Self {
+        f32x4(proven!(_mm_and_ps(m.0, self.0)), self.1)
+    }
+    #[inline(always)]
     fn reduce<F: Fold>(self) -> f32 {
         reduce::four::<F, Self>(self)
     }
@@ -339,6 +347,10 @@ macro_rules! integers {
             #[inline(always)]
             fn select(m: mask32x4<L>, a: Self, b: Self) -> Self {
                 $name(a.1.blend_i32(proven!(_mm_castps_si128(m.0)), a.0, b.0), a.1)
+            }
+            #[inline(always)]
+            fn masked(self, m: mask32x4<L>) -> Self {
+                $name(proven!(_mm_and_si128(_mm_castps_si128(m.0), self.0)), self.1)
             }
             #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
