@@ -103,7 +103,8 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
     #[inline(always)]
     fn max_num(self, other: Self) -> Self {
         let greatest = Self::select(other.eq(other), self.max(other), self);
-        Self::from_bits(greatest.to_bits() & !(!self.to_bits()).masked(self.eq(other)))
+        let differ = Self::U32::splat(self.token(), u32::MAX).masked(self.ne(other));
+        Self::from_bits(greatest.to_bits() & (self.to_bits() | differ))
     }
 
     // Rounding

@@ -63,6 +63,9 @@ pub(crate) fn rsqrt_step<V: SimdF32>(x: V, estimate: V) -> V {
     estimate.mul_add_fast(error, estimate).max(halved)
 }
 
+/// 2^39 + 2^23, as [`from_u32`] needs it.
+pub(crate) const TWO_39_AND_23: f32 = 549_764_202_496.0;
+
 /// The nearest `f32` to each integer, ties to even.
 #[inline(always)]
 pub(crate) fn from_u32<V: SimdF32>(u: V::U32) -> V {
@@ -71,7 +74,7 @@ pub(crate) fn from_u32<V: SimdF32>(u: V::U32) -> V {
     let low = V::from_bits(u & V::U32::splat(s, 0xffff) | V::U32::splat(s, 0x4b00_0000));
     let high = V::from_bits(u.shr(16) | V::U32::splat(s, 0x5300_0000));
     // Less 2^39 + 2^23, exactly; the sum is then the one rounding.
-    (high - V::from_bits(V::U32::splat(s, 0x5300_0080))) + low
+    (high - V::splat(s, TWO_39_AND_23)) + low
 }
 
 /// The integer toward zero, or the nearest that there is; 0 for NaN.

@@ -63,6 +63,18 @@ pub trait Xmm: Simd {
         f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC }>(x.0)), self)
     }
 
+    /// As in `soft`, the halves put beside the high words of the floats.
+    #[inline(always)]
+    fn from_u32(self, u: u32x4<Self>) -> f32x4<Self> {
+        proven!({
+            let low = _mm_blend_epi16::<0xaa>(u.0, _mm_set1_epi32(0x4b00_0000));
+            let high = _mm_srli_epi32::<16>(u.0);
+            let high = _mm_blend_epi16::<0xaa>(high, _mm_set1_epi32(0x5300_0000));
+            let high = _mm_sub_ps(_mm_castsi128_ps(high), _mm_set1_ps(soft::TWO_39_AND_23));
+            f32x4(_mm_add_ps(high, _mm_castsi128_ps(low)), self)
+        })
+    }
+
     /// Whether [`Xmm::fused_mul_add`] is one instruction.
     const FUSED: bool = false;
 
@@ -291,6 +303,29 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
     #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x4(proven!(_mm_cvttps_epi32(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        u.1.from_u32(u)
+    }
+    #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        proven!({
+            // What is not above zero, NaN too, becomes 0.
+            let x = f32x4(_mm_max_ps(self.0, _mm_setzero_ps()), self.1);
+            let great = _mm_cmpge_ps(x.0, _mm_set1_ps(4_294_967_296.0));
+            u32x4(_mm_or_si128(x.to_u32_fast().0, _mm_castps_si128(great)), self.1)
+        })
+    }
+    #[inline(always)]
+    fn to_u32_fast(self) -> Self::U32 {
+        proven!({
+            // What does not fit an i32 becomes i32::MIN: to its bit comes the rest above 2^31.
+            let low = _mm_cvttps_epi32(self.0);
+            let rest = _mm_sub_ps(self.0, _mm_set1_ps(2_147_483_648.0));
+            let rest = _mm_and_si128(_mm_cvttps_epi32(rest), _mm_srai_epi32::<31>(low));
+            u32x4(_mm_or_si128(low, rest), self.1)
+        })
     }
 }
 

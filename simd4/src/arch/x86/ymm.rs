@@ -153,6 +153,29 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
     fn fused_mul_add(self, b: Self, c: Self) -> Self {
         f32x8(proven!(_mm256_fmadd_ps(self.0, b.0, c.0)), self.1)
     }
+    /// Of equal operands, `min` gives the second: that is a negative `self` or a positive one's
+    /// partner. A NaN that is second is replaced, one that is first loses in `min`.
+    #[inline(always)]
+    fn min_num(self, b: Self) -> Self {
+        proven!({
+            let first = _mm256_blendv_ps(self.0, b.0, self.0);
+            let second = _mm256_blendv_ps(b.0, self.0, self.0);
+            let least = _mm256_min_ps(first, second);
+            let nan = _mm256_cmp_ps::<_CMP_UNORD_Q>(second, second);
+            f32x8(_mm256_blendv_ps(least, first, nan), self.1)
+        })
+    }
+    /// As [`SimdF32::min_num`], with the signs the other way round.
+    #[inline(always)]
+    fn max_num(self, b: Self) -> Self {
+        proven!({
+            let first = _mm256_blendv_ps(b.0, self.0, self.0);
+            let second = _mm256_blendv_ps(self.0, b.0, self.0);
+            let greatest = _mm256_max_ps(first, second);
+            let nan = _mm256_cmp_ps::<_CMP_UNORD_Q>(second, second);
+            f32x8(_mm256_blendv_ps(greatest, first, nan), self.1)
+        })
+    }
     #[inline(always)]
     fn round_ties_even(self) -> Self {
         f32x8(
@@ -223,6 +246,37 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
     #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x8(proven!(_mm256_cvttps_epi32(self.0)), self.1)
+    }
+    /// As in `xmm`.
+    #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        proven!({
+            let low = _mm256_blend_epi16::<0xaa>(u.0, _mm256_set1_epi32(0x4b00_0000));
+            let high = _mm256_srli_epi32::<16>(u.0);
+            let high = _mm256_blend_epi16::<0xaa>(high, _mm256_set1_epi32(0x5300_0000));
+            let high = _mm256_castsi256_ps(high);
+            let high = _mm256_sub_ps(high, _mm256_set1_ps(soft::TWO_39_AND_23));
+            f32x8(_mm256_add_ps(high, _mm256_castsi256_ps(low)), u.1)
+        })
+    }
+    /// As in `xmm`.
+    #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        proven!({
+            let x = f32x8(_mm256_max_ps(self.0, _mm256_setzero_ps()), self.1);
+            let great = _mm256_cmp_ps::<_CMP_GE_OQ>(x.0, _mm256_set1_ps(4_294_967_296.0));
+            u32x8(_mm256_or_si256(x.to_u32_fast().0, _mm256_castps_si256(great)), self.1)
+        })
+    }
+    /// As in `xmm`.
+    #[inline(always)]
+    fn to_u32_fast(self) -> Self::U32 {
+        proven!({
+            let low = _mm256_cvttps_epi32(self.0);
+            let rest = _mm256_sub_ps(self.0, _mm256_set1_ps(2_147_483_648.0));
+            let rest = _mm256_and_si256(_mm256_cvttps_epi32(rest), _mm256_srai_epi32::<31>(low));
+            u32x8(_mm256_or_si256(low, rest), self.1)
+        })
     }
 }
 
