@@ -19,6 +19,8 @@ macro_rules! dispatch {
             $crate::Level::Avx2($s) => $crate::__vectorize!($s, $body),
             #[cfg(target_arch = "aarch64")]
             $crate::Level::Neon($s) => $crate::__vectorize!($s, $body),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            $crate::Level::Simd128($s) => $crate::__vectorize!($s, $body),
             // `Level` may grow; this macro grows with it.
             #[allow(unreachable_patterns)]
             _ => unreachable!("a level without an arm in dispatch!"),
