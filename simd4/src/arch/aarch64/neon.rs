@@ -124,6 +124,14 @@ impl Lanes for f32x4 {
         f32x4(proven!(vbslq_f32(m.0, a.0, b.0)), a.1)
     }
     #[inline(always)]
+    fn zip(self, b: Self) -> (Self, Self) {
+        proven!((f32x4(vzip1q_f32(self.0, b.0), self.1), f32x4(vzip2q_f32(self.0, b.0), self.1)))
+    }
+    #[inline(always)]
+    fn unzip(self, b: Self) -> (Self, Self) {
+        proven!((f32x4(vuzp1q_f32(self.0, b.0), self.1), f32x4(vuzp2q_f32(self.0, b.0), self.1)))
+    }
+    #[inline(always)]
     fn reduce<F: Fold>(self) -> f32 {
         reduce::four::<F, Self>(self)
     }
@@ -253,6 +261,7 @@ macro_rules! integers {
     (
         $name:ident, $elem:ident, $register:ident;
         $dup:ident $min:ident $max:ident $eq:ident $lt:ident $le:ident $select:ident
+        $zip1:ident $zip2:ident $uzp1:ident $uzp2:ident
         $sum:ident $least:ident $greatest:ident
         $add:ident $sub:ident $mul:ident $and:ident $or:ident $xor:ident $not:ident
     ) => {
@@ -305,6 +314,14 @@ macro_rules! integers {
                 $name(proven!($select(m.0, a.0, b.0)), a.1)
             }
             #[inline(always)]
+            fn zip(self, b: Self) -> (Self, Self) {
+                proven!(($name($zip1(self.0, b.0), self.1), $name($zip2(self.0, b.0), self.1)))
+            }
+            #[inline(always)]
+            fn unzip(self, b: Self) -> (Self, Self) {
+                proven!(($name($uzp1(self.0, b.0), self.1), $name($uzp2(self.0, b.0), self.1)))
+            }
+            #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
                 reduce::four::<F, Self>(self)
             }
@@ -339,12 +356,14 @@ macro_rules! integers {
 integers! {
     i32x4, i32, int32x4_t;
     vdupq_n_s32 vminq_s32 vmaxq_s32 vceqq_s32 vcltq_s32 vcleq_s32 vbslq_s32
+    vzip1q_s32 vzip2q_s32 vuzp1q_s32 vuzp2q_s32
     vaddvq_s32 vminvq_s32 vmaxvq_s32
     vaddq_s32 vsubq_s32 vmulq_s32 vandq_s32 vorrq_s32 veorq_s32 vmvnq_s32
 }
 integers! {
     u32x4, u32, uint32x4_t;
     vdupq_n_u32 vminq_u32 vmaxq_u32 vceqq_u32 vcltq_u32 vcleq_u32 vbslq_u32
+    vzip1q_u32 vzip2q_u32 vuzp1q_u32 vuzp2q_u32
     vaddvq_u32 vminvq_u32 vmaxvq_u32
     vaddq_u32 vsubq_u32 vmulq_u32 vandq_u32 vorrq_u32 veorq_u32 vmvnq_u32
 }
@@ -412,23 +431,37 @@ impl SimdMask for mask32x4 {
     }
     #[inline(always)]
     fn splat(s: Neon, b: bool) -> Self {
-        Self::from_array(s, [b; 4])
+        mask32x4(proven!(vdupq_n_u32(u32::from(b).wrapping_neg())), s)
     }
     #[inline(always)]
     fn from_array(s: Neon, a: [bool; 4]) -> Self {
-        let lanes = a.map(|b| u32::from(b).wrapping_neg());
-        mask32x4(proven!(transmute::<[u32; 4], uint32x4_t>(lanes)), s)
+        proven!({
+            // A lane is −1 where its byte is 1.
+            let bytes = transmute::<[[bool; 4]; 2], uint8x8_t>([a; 2]);
+            let lanes = vmovl_u16(vget_low_u16(vmovl_u8(bytes)));
+            mask32x4(vreinterpretq_u32_s32(vnegq_s32(vreinterpretq_s32_u32(lanes))), s)
+        })
     }
     #[inline(always)]
     fn to_array(self) -> [bool; 4] {
-        proven!(transmute::<uint32x4_t, [u32; 4]>(self.0)).map(|lane| lane != 0)
+        let bytes = proven!({
+            let halfwords = vmovn_u32(self.0);
+            let bytes = vmovn_u16(vcombine_u16(halfwords, halfwords));
+            vand_u8(bytes, vdup_n_u8(1))
+        });
+        // SAFETY: a byte is 0 or 1.
+        let [lanes, _] = unsafe { transmute::<uint8x8_t, [[bool; 4]; 2]>(bytes) };
+        lanes
     }
     #[inline(always)]
     fn bitmask(self) -> u32 {
-        proven!({
-            let bits = transmute::<[u32; 4], uint32x4_t>([1, 2, 4, 8]);
-            vaddvq_u32(vandq_u32(self.0, bits))
-        })
+        let bits = proven!({
+            let places = transmute::<[u32; 4], uint32x4_t>([1, 2, 4, 8]);
+            vaddvq_u32(vandq_u32(self.0, places))
+        });
+        // SAFETY: all places make 15. Known to the compiler, it spares checks of lanes.
+        unsafe { core::hint::assert_unchecked(bits < 16) };
+        bits
     }
     #[inline(always)]
     fn any(self) -> bool {

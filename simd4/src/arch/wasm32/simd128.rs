@@ -140,6 +140,20 @@ impl Lanes for f32x4 {
         f32x4(proven!(v128_bitselect(a.0, b.0, m.0)), a.1)
     }
     #[inline(always)]
+    fn zip(self, b: Self) -> (Self, Self) {
+        proven!((
+            f32x4(i32x4_shuffle::<0, 4, 1, 5>(self.0, b.0), self.1),
+            f32x4(i32x4_shuffle::<2, 6, 3, 7>(self.0, b.0), self.1),
+        ))
+    }
+    #[inline(always)]
+    fn unzip(self, b: Self) -> (Self, Self) {
+        proven!((
+            f32x4(i32x4_shuffle::<0, 2, 4, 6>(self.0, b.0), self.1),
+            f32x4(i32x4_shuffle::<1, 3, 5, 7>(self.0, b.0), self.1),
+        ))
+    }
+    #[inline(always)]
     fn reduce<F: Fold>(self) -> f32 {
         reduce::four::<F, Self>(self)
     }
@@ -314,6 +328,20 @@ macro_rules! integers {
                 $name(proven!(v128_bitselect(a.0, b.0, m.0)), a.1)
             }
             #[inline(always)]
+            fn zip(self, b: Self) -> (Self, Self) {
+                proven!((
+                    $name(i32x4_shuffle::<0, 4, 1, 5>(self.0, b.0), self.1),
+                    $name(i32x4_shuffle::<2, 6, 3, 7>(self.0, b.0), self.1),
+                ))
+            }
+            #[inline(always)]
+            fn unzip(self, b: Self) -> (Self, Self) {
+                proven!((
+                    $name(i32x4_shuffle::<0, 2, 4, 6>(self.0, b.0), self.1),
+                    $name(i32x4_shuffle::<1, 3, 5, 7>(self.0, b.0), self.1),
+                ))
+            }
+            #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
                 reduce::four::<F, Self>(self)
             }
@@ -390,16 +418,29 @@ impl SimdMask for mask32x4 {
     }
     #[inline(always)]
     fn from_array(s: Simd128, a: [bool; 4]) -> Self {
-        let lanes = a.map(|b| -i32::from(b));
-        mask32x4(proven!(transmute::<[i32; 4], v128>(lanes)), s)
+        proven!({
+            // A lane is −1 where its byte is 1.
+            let bytes = i32x4_splat(transmute::<[bool; 4], i32>(a));
+            let lanes = u32x4_extend_low_u16x8(u16x8_extend_low_u8x16(bytes));
+            mask32x4(i32x4_neg(lanes), s)
+        })
     }
     #[inline(always)]
     fn to_array(self) -> [bool; 4] {
-        proven!(transmute::<v128, [u32; 4]>(self.0)).map(|lane| lane != 0)
+        let bytes = proven!({
+            let halfwords = i16x8_narrow_i32x4(self.0, self.0);
+            let bytes = i8x16_narrow_i16x8(halfwords, halfwords);
+            i32x4_extract_lane::<0>(v128_and(bytes, i8x16_splat(1)))
+        });
+        // SAFETY: a byte is 0 or 1.
+        unsafe { transmute::<i32, [bool; 4]>(bytes) }
     }
     #[inline(always)]
     fn bitmask(self) -> u32 {
-        u32::from(proven!(i32x4_bitmask(self.0)))
+        let bits = u32::from(proven!(i32x4_bitmask(self.0)));
+        // SAFETY: there are four lanes. Known to the compiler, it spares checks of them.
+        unsafe { core::hint::assert_unchecked(bits < 16) };
+        bits
     }
     #[inline(always)]
     fn any(self) -> bool {
