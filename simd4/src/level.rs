@@ -24,11 +24,14 @@ pub enum Level {
     /// NEON: the baseline of AArch64.
     #[cfg(target_arch = "aarch64")]
     Neon(Neon),
+    /// WebAssembly's fixed-width SIMD, in builds that enable it.
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    Simd128(Simd128),
 }
 
 impl Level {
     /// The names of all levels, of every architecture: what [`Level::named`] may be asked for.
-    pub const NAMES: [&str; 5] = ["scalar", "sse2", "sse4.1", "avx2", "neon"];
+    pub const NAMES: [&str; 6] = ["scalar", "sse2", "sse4.1", "avx2", "neon", "simd128"];
 
     /// All levels of this architecture, weakest first; `None` for those that the CPU lacks.
     fn detect() -> impl DoubleEndedIterator<Item = Option<Level>> {
@@ -42,6 +45,8 @@ impl Level {
             Avx2::detect().map(Level::Avx2),
             #[cfg(target_arch = "aarch64")]
             Neon::detect().map(Level::Neon),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Simd128::detect().map(Level::Simd128),
         ]
         .into_iter()
     }
@@ -77,7 +82,7 @@ impl Level {
             .ok_or(LevelError { lacking: known.copied() })
     }
 
-    /// `scalar`, `sse2`, `sse4.1`, `avx2` or `neon`.
+    /// `scalar`, `sse2`, `sse4.1`, `avx2`, `neon` or `simd128`.
     pub fn name(self) -> &'static str {
         match self {
             Level::Scalar(_) => "scalar",
@@ -89,6 +94,8 @@ impl Level {
             Level::Avx2(_) => "avx2",
             #[cfg(target_arch = "aarch64")]
             Level::Neon(_) => "neon",
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Level::Simd128(_) => "simd128",
         }
     }
 
