@@ -14,7 +14,7 @@ pub(crate) mod tokens {
     pub use super::aarch64::Neon;
     pub use super::scalar::Scalar;
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    pub use super::x86::{Avx2, Sse2, Sse41};
+    pub use super::x86::{Avx2, Avx512, Sse2, Sse41};
 }
 
 /// The types of the best level that the build guarantees.

@@ -58,6 +58,18 @@ pub trait Xmm: Simd {
     fn trunc(self, x: f32x4<Self>) -> f32x4<Self> {
         f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC }>(x.0)), self)
     }
+    #[inline(always)]
+    fn from_u32(self, u: u32x4<Self>) -> f32x4<Self> {
+        soft::from_u32(u)
+    }
+    #[inline(always)]
+    fn to_u32(self, x: f32x4<Self>) -> u32x4<Self> {
+        soft::to_u32(x)
+    }
+    #[inline(always)]
+    fn to_u32_fast(self, x: f32x4<Self>) -> u32x4<Self> {
+        soft::to_u32_fast(x)
+    }
 
     /// Whether [`Xmm::fused_mul_add`] is one instruction.
     const FUSED: bool = false;
@@ -266,6 +278,10 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         f32x4(proven!(_mm_cvtepi32_ps(i.0)), i.1)
     }
     #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        u.1.from_u32(u)
+    }
+    #[inline(always)]
     fn to_i32(self) -> Self::I32 {
         proven!({
             // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
@@ -277,8 +293,16 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         })
     }
     #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        self.1.to_u32(self)
+    }
+    #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x4(proven!(_mm_cvttps_epi32(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn to_u32_fast(self) -> Self::U32 {
+        self.1.to_u32_fast(self)
     }
 }
 

@@ -13,8 +13,22 @@ use crate::types::reduce::Fold;
 use crate::types::{conversions, operators, soft, unary_operator};
 use crate::{Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide};
 
-/// A level whose token proves AVX2 and FMA.
-pub trait Ymm: Xmm {}
+/// What differs between the levels of 256-bit registers; their token proves AVX2 and FMA. As
+/// provided: AVX2.
+pub trait Ymm: Xmm {
+    #[inline(always)]
+    fn from_u32(self, u: u32x8<Self>) -> f32x8<Self> {
+        soft::from_u32(u)
+    }
+    #[inline(always)]
+    fn to_u32(self, x: f32x8<Self>) -> u32x8<Self> {
+        soft::to_u32(x)
+    }
+    #[inline(always)]
+    fn to_u32_fast(self, x: f32x8<Self>) -> u32x8<Self> {
+        soft::to_u32_fast(x)
+    }
+}
 
 /// Eight lanes of `f32`.
 #[allow(non_camel_case_types)]
@@ -190,6 +204,10 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
         f32x8(proven!(_mm256_cvtepi32_ps(i.0)), i.1)
     }
     #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        Ymm::from_u32(u.1, u)
+    }
+    #[inline(always)]
     fn to_i32(self) -> Self::I32 {
         proven!({
             // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
@@ -201,8 +219,16 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
         })
     }
     #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        Ymm::to_u32(self.1, self)
+    }
+    #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x8(proven!(_mm256_cvttps_epi32(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn to_u32_fast(self) -> Self::U32 {
+        Ymm::to_u32_fast(self.1, self)
     }
 }
 
