@@ -60,18 +60,18 @@ impl Simd for Avx512 {
 
 impl Xmm for Avx512 {
     #[inline(always)]
-    fn from_u32(self, u: xmm::u32x4<Self>) -> xmm::f32x4<Self> {
+    fn u32_to_f32(self, u: xmm::u32x4<Self>) -> xmm::f32x4<Self> {
         // There is no intrinsic for the instruction of fewer lanes; LLVM knows it.
         let wide = proven!(_mm512_cvtepu32_ps(_mm512_castsi128_si512(u.0)));
         xmm::f32x4(proven!(_mm512_castps512_ps128(wide)), self)
     }
     #[inline(always)]
-    fn to_u32(self, x: xmm::f32x4<Self>) -> xmm::u32x4<Self> {
+    fn f32_to_u32(self, x: xmm::f32x4<Self>) -> xmm::u32x4<Self> {
         // What is not above zero, NaN too, becomes 0; what is too great becomes all ones.
         xmm::u32x4(proven!(_mm_cvttps_epu32(_mm_max_ps(x.0, _mm_setzero_ps()))), self)
     }
     #[inline(always)]
-    fn to_u32_fast(self, x: xmm::f32x4<Self>) -> xmm::u32x4<Self> {
+    fn f32_to_u32_fast(self, x: xmm::f32x4<Self>) -> xmm::u32x4<Self> {
         xmm::u32x4(proven!(_mm_cvttps_epu32(x.0)), self)
     }
 
@@ -85,16 +85,16 @@ impl Xmm for Avx512 {
 
 impl Ymm for Avx512 {
     #[inline(always)]
-    fn from_u32(self, u: ymm::u32x8<Self>) -> ymm::f32x8<Self> {
+    fn u32_to_f32(self, u: ymm::u32x8<Self>) -> ymm::f32x8<Self> {
         let wide = proven!(_mm512_cvtepu32_ps(_mm512_castsi256_si512(u.0)));
         ymm::f32x8(proven!(_mm512_castps512_ps256(wide)), self)
     }
     #[inline(always)]
-    fn to_u32(self, x: ymm::f32x8<Self>) -> ymm::u32x8<Self> {
+    fn f32_to_u32(self, x: ymm::f32x8<Self>) -> ymm::u32x8<Self> {
         ymm::u32x8(proven!(_mm256_cvttps_epu32(_mm256_max_ps(x.0, _mm256_setzero_ps()))), self)
     }
     #[inline(always)]
-    fn to_u32_fast(self, x: ymm::f32x8<Self>) -> ymm::u32x8<Self> {
+    fn f32_to_u32_fast(self, x: ymm::f32x8<Self>) -> ymm::u32x8<Self> {
         ymm::u32x8(proven!(_mm256_cvttps_epu32(x.0)), self)
     }
 }

@@ -59,15 +59,15 @@ pub trait Xmm: Simd {
         f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC }>(x.0)), self)
     }
     #[inline(always)]
-    fn from_u32(self, u: u32x4<Self>) -> f32x4<Self> {
+    fn u32_to_f32(self, u: u32x4<Self>) -> f32x4<Self> {
         soft::from_u32(u)
     }
     #[inline(always)]
-    fn to_u32(self, x: f32x4<Self>) -> u32x4<Self> {
+    fn f32_to_u32(self, x: f32x4<Self>) -> u32x4<Self> {
         soft::to_u32(x)
     }
     #[inline(always)]
-    fn to_u32_fast(self, x: f32x4<Self>) -> u32x4<Self> {
+    fn f32_to_u32_fast(self, x: f32x4<Self>) -> u32x4<Self> {
         soft::to_u32_fast(x)
     }
 
@@ -279,7 +279,7 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
     }
     #[inline(always)]
     fn from_u32(u: Self::U32) -> Self {
-        u.1.from_u32(u)
+        u.1.u32_to_f32(u)
     }
     #[inline(always)]
     fn to_i32(self) -> Self::I32 {
@@ -294,7 +294,7 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
     }
     #[inline(always)]
     fn to_u32(self) -> Self::U32 {
-        self.1.to_u32(self)
+        self.1.f32_to_u32(self)
     }
     #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
@@ -302,7 +302,7 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
     }
     #[inline(always)]
     fn to_u32_fast(self) -> Self::U32 {
-        self.1.to_u32_fast(self)
+        self.1.f32_to_u32_fast(self)
     }
 }
 

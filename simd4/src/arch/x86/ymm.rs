@@ -17,15 +17,15 @@ use crate::{Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide};
 /// provided: AVX2.
 pub trait Ymm: Xmm {
     #[inline(always)]
-    fn from_u32(self, u: u32x8<Self>) -> f32x8<Self> {
+    fn u32_to_f32(self, u: u32x8<Self>) -> f32x8<Self> {
         soft::from_u32(u)
     }
     #[inline(always)]
-    fn to_u32(self, x: f32x8<Self>) -> u32x8<Self> {
+    fn f32_to_u32(self, x: f32x8<Self>) -> u32x8<Self> {
         soft::to_u32(x)
     }
     #[inline(always)]
-    fn to_u32_fast(self, x: f32x8<Self>) -> u32x8<Self> {
+    fn f32_to_u32_fast(self, x: f32x8<Self>) -> u32x8<Self> {
         soft::to_u32_fast(x)
     }
 }
@@ -205,7 +205,7 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
     }
     #[inline(always)]
     fn from_u32(u: Self::U32) -> Self {
-        Ymm::from_u32(u.1, u)
+        Ymm::u32_to_f32(u.1, u)
     }
     #[inline(always)]
     fn to_i32(self) -> Self::I32 {
@@ -220,7 +220,7 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
     }
     #[inline(always)]
     fn to_u32(self) -> Self::U32 {
-        Ymm::to_u32(self.1, self)
+        Ymm::f32_to_u32(self.1, self)
     }
     #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
@@ -228,7 +228,7 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
     }
     #[inline(always)]
     fn to_u32_fast(self) -> Self::U32 {
-        Ymm::to_u32_fast(self.1, self)
+        Ymm::f32_to_u32_fast(self.1, self)
     }
 }
 
