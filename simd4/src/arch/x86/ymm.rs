@@ -17,6 +17,14 @@ use crate::{Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide};
 /// provided: AVX2.
 pub trait Ymm: Xmm {
     #[inline(always)]
+    fn blend(self, m: __m256, a: __m256, b: __m256) -> __m256 {
+        proven!(_mm256_blendv_ps(b, a, m))
+    }
+    #[inline(always)]
+    fn blend_i32(self, m: __m256i, a: __m256i, b: __m256i) -> __m256i {
+        proven!(_mm256_blendv_epi8(b, a, m))
+    }
+    #[inline(always)]
     fn u32_to_f32(self, u: u32x8<Self>) -> f32x8<Self> {
         soft::from_u32(u)
     }
@@ -107,7 +115,7 @@ impl<L: Ymm> Lanes for f32x8<L> {
     }
     #[inline(always)]
     fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
-        f32x8(proven!(_mm256_blendv_ps(b.0, a.0, m.0)), a.1)
+        f32x8(Ymm::blend(a.1, m.0, a.0, b.0), a.1)
     }
     #[inline(always)]
     fn reduce<F: Fold>(self) -> f32 {
@@ -284,7 +292,7 @@ macro_rules! integers {
             }
             #[inline(always)]
             fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
-                $name(proven!(_mm256_blendv_epi8(b.0, a.0, _mm256_castps_si256(m.0))), a.1)
+                $name(Ymm::blend_i32(a.1, proven!(_mm256_castps_si256(m.0)), a.0, b.0), a.1)
             }
             #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
