@@ -212,7 +212,9 @@ operators! { [L: Xmm] f32x4<L> {
     Div div DivAssign div_assign |a, b| f32x4(proven!(_mm_div_ps(a.0, b.0)), a.1);
 }}
 unary_operator! { [L: Xmm] f32x4<L> {
-    Neg neg |a| f32x4(proven!(_mm_xor_ps(a.0, _mm_set1_ps(-0.0))), a.1)
+    // LLVM makes it an exclusive or, or a part of a fused operation; an exclusive or written here
+    // it does not take for a negation.
+    Neg neg |a| f32x4(proven!(_mm_sub_ps(_mm_set1_ps(-0.0), a.0)), a.1)
 }}
 
 impl<L: Xmm> SimdF32 for f32x4<L> {
