@@ -2,7 +2,9 @@
 //!
 //! The types of 4 and 8 lanes are those of `avx2`, masks in vector registers included: their
 //! comparisons and blends need no mask register, and a mask that stays in vectors moves nowhere.
-//! LLVM is free to use the new forms of their instructions all the same.
+//! LLVM is free to use the new forms of their instructions all the same. They blend bit by bit,
+//! which is one instruction here, vpternlog; of blendv LLVM would make two, by way of a mask
+//! register.
 
 #[cfg(target_arch = "x86")]
 use core::arch::x86::*;
@@ -57,9 +59,6 @@ impl Simd for Avx512 {
         proven!(avx512(f))
     }
 }
-
-// One instruction, vpternlog, does all of a blend by bits. Of blendv LLVM would make a move from the
-// mask to a mask register and a masked move.
 
 impl Xmm for Avx512 {
     #[inline(always)]
