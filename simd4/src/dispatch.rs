@@ -17,6 +17,8 @@ macro_rules! dispatch {
             $crate::Level::Sse41($s) => $crate::__vectorize!($s, $body),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             $crate::Level::Avx2($s) => $crate::__vectorize!($s, $body),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            $crate::Level::Avx512($s) => $crate::__vectorize!($s, $body),
             #[cfg(target_arch = "aarch64")]
             $crate::Level::Neon($s) => $crate::__vectorize!($s, $body),
             #[cfg(target_arch = "wasm32")]

@@ -18,7 +18,7 @@ pub(crate) mod tokens {
     #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
     pub use super::wasm32::Simd128;
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    pub use super::x86::{Avx2, Sse2, Sse41};
+    pub use super::x86::{Avx2, Avx512, Sse2, Sse41};
 }
 
 /// The types of the best level that the build guarantees.

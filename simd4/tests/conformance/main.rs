@@ -211,6 +211,7 @@ stamp! {
     sse2 = "sse2"
     sse41 = "sse4.1"
     avx2 = "avx2"
+    avx512 = "avx512"
     neon = "neon"
     simd128 = "simd128"
 }
