@@ -1,7 +1,7 @@
 //! The sample kernels, written once for every level: the crate's side.
 
 use simd4::dispatch;
-use simd4::math::Vec3;
+use simd4::math::{Vec3, transpose};
 use simd4::prelude::*;
 
 use crate::io::{Io, N};
@@ -138,12 +138,9 @@ fn transpose4x4<S: Simd>(s: S, io: &mut Io) {
     for (from, to) in io.f[0].0.chunks_exact(16).zip(io.floats.0.chunks_exact_mut(16)) {
         let (a, b) = (S::f32x4::load(s, &from[0..4]), S::f32x4::load(s, &from[4..8]));
         let (c, d) = (S::f32x4::load(s, &from[8..12]), S::f32x4::load(s, &from[12..16]));
-        let (ac, bd) = (a.zip(c), b.zip(d));
-        let (low, high) = (ac.0.zip(bd.0), ac.1.zip(bd.1));
-        low.0.store(&mut to[0..4]);
-        low.1.store(&mut to[4..8]);
-        high.0.store(&mut to[8..12]);
-        high.1.store(&mut to[12..16]);
+        for (column, to) in transpose([a, b, c, d]).into_iter().zip(to.chunks_exact_mut(4)) {
+            column.store(to);
+        }
     }
 }
 

@@ -25,7 +25,7 @@ pub trait Join<T>: LaneArray<T> {
 
 macro_rules! join {
     ($half:literal + $other:literal) => {
-        impl<T: Copy + Send + Sync + 'static> Join<T> for [T; $half] {
+        impl<T: Copy + Default + Send + Sync + 'static> Join<T> for [T; $half] {
             type Joined = [T; $half + $other];
             #[inline(always)]
             fn join(low: Self, high: Self) -> Self::Joined {
@@ -127,9 +127,17 @@ where
         Halves(self.0.masked(m.0), self.1.masked(m.1))
     }
     #[inline(always)]
+    fn reverse(self) -> Self {
+        Halves(self.1.reverse(), self.0.reverse())
+    }
+    #[inline(always)]
     fn zip(self, other: Self) -> (Self, Self) {
         let (low, high) = (self.0.zip(other.0), self.1.zip(other.1));
         (Halves(low.0, low.1), Halves(high.0, high.1))
+    }
+    #[inline(always)]
+    fn zip_halves(self, other: Self) -> (Self, Self) {
+        (Halves(self.0, other.0), Halves(self.1, other.1))
     }
     #[inline(always)]
     fn unzip(self, other: Self) -> (Self, Self) {
@@ -139,6 +147,19 @@ where
     #[inline(always)]
     fn reduce<F: Fold>(self) -> Self::Elem {
         F::fold(self.0, self.1).reduce::<F>()
+    }
+    // A level may have its own way for one register.
+    #[inline(always)]
+    fn reduce_sum(self) -> Self::Elem {
+        (self.0 + self.1).reduce_sum()
+    }
+    #[inline(always)]
+    fn reduce_min(self) -> Self::Elem {
+        self.0.min(self.1).reduce_min()
+    }
+    #[inline(always)]
+    fn reduce_max(self) -> Self::Elem {
+        self.0.max(self.1).reduce_max()
     }
 }
 

@@ -8,6 +8,7 @@ mod int;
 mod mask;
 pub(crate) mod reduce;
 mod seam;
+#[allow(dead_code, reason = "which of them are needed depends on the architecture")]
 pub(crate) mod soft;
 mod swizzle;
 
@@ -25,6 +26,7 @@ use core::ops::{Add, AddAssign, Mul, MulAssign, Sub, SubAssign};
 
 use crate::Simd;
 use crate::simd::sealed::Sealed;
+use crate::storage::Block;
 
 /// Lanes of numbers: memory, arithmetic, comparisons, moves and reductions.
 ///
@@ -105,6 +107,21 @@ pub trait Lanes:
     #[inline(always)]
     fn store(self, to: &mut [Self::Elem]) {
         to[..Self::LANES].copy_from_slice(self.to_array().as_ref());
+    }
+
+    /// The numbers of a block, which is aligned.
+    #[inline(always)]
+    fn load_aligned<B: Block<Elem = Self::Elem, Array = Self::Array>>(
+        s: Self::Simd,
+        from: &B,
+    ) -> Self {
+        Self::from_array(s, *from.array())
+    }
+
+    /// Writes a block, which is aligned.
+    #[inline(always)]
+    fn store_aligned<B: Block<Elem = Self::Elem, Array = Self::Array>>(self, to: &mut B) {
+        *to.array_mut() = self.to_array();
     }
 
     /// The elements of a slice of any length, as many as there are lanes for; the lanes beyond
@@ -329,6 +346,27 @@ pub trait Lanes:
                 other,
                 #[inline(always)]
                 |i| (i + Self::LANES) / 2 + i % 2 * Self::LANES,
+            ),
+        )
+    }
+
+    /// The lower halves of both, `self`'s first, and the higher halves of both.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn zip_halves(self, other: Self) -> (Self, Self) {
+        let half = Self::LANES / 2;
+        (
+            pick(
+                self,
+                other,
+                #[inline(always)]
+                |i| i + i / half * half,
+            ),
+            pick(
+                self,
+                other,
+                #[inline(always)]
+                |i| i + half + i / half * half,
             ),
         )
     }

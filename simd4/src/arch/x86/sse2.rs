@@ -109,7 +109,7 @@ impl Xmm for Sse2 {
         })
     }
     #[inline(always)]
-    fn from_u32(self, u: xmm::u32x4<Self>) -> xmm::f32x4<Self> {
+    fn u32_to_f32(self, u: xmm::u32x4<Self>) -> xmm::f32x4<Self> {
         soft::from_u32(u)
     }
 }

@@ -62,16 +62,34 @@ pub trait Xmm: Simd {
     fn trunc(self, x: f32x4<Self>) -> f32x4<Self> {
         f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC }>(x.0)), self)
     }
-
     /// As in `soft`, the halves put beside the high words of the floats.
     #[inline(always)]
-    fn from_u32(self, u: u32x4<Self>) -> f32x4<Self> {
+    fn u32_to_f32(self, u: u32x4<Self>) -> f32x4<Self> {
         proven!({
             let low = _mm_blend_epi16::<0xaa>(u.0, _mm_set1_epi32(0x4b00_0000));
             let high = _mm_srli_epi32::<16>(u.0);
             let high = _mm_blend_epi16::<0xaa>(high, _mm_set1_epi32(0x5300_0000));
             let high = _mm_sub_ps(_mm_castsi128_ps(high), _mm_set1_ps(soft::TWO_39_AND_23));
             f32x4(_mm_add_ps(high, _mm_castsi128_ps(low)), self)
+        })
+    }
+    #[inline(always)]
+    fn f32_to_u32(self, x: f32x4<Self>) -> u32x4<Self> {
+        proven!({
+            // What is not above zero, NaN too, becomes 0.
+            let x = f32x4(_mm_max_ps(x.0, _mm_setzero_ps()), self);
+            let great = _mm_cmpge_ps(x.0, _mm_set1_ps(4_294_967_296.0));
+            u32x4(_mm_or_si128(self.f32_to_u32_fast(x).0, _mm_castps_si128(great)), self)
+        })
+    }
+    #[inline(always)]
+    fn f32_to_u32_fast(self, x: f32x4<Self>) -> u32x4<Self> {
+        proven!({
+            // What does not fit an i32 becomes i32::MIN: to its bit comes the rest above 2^31.
+            let low = _mm_cvttps_epi32(x.0);
+            let rest = _mm_sub_ps(x.0, _mm_set1_ps(2_147_483_648.0));
+            let rest = _mm_and_si128(_mm_cvttps_epi32(rest), _mm_srai_epi32::<31>(low));
+            u32x4(_mm_or_si128(low, rest), self)
         })
     }
 
@@ -207,6 +225,31 @@ impl<L: Xmm> Lanes for f32x4<L> {
         f32x4(proven!(_mm_and_ps(m.0, self.0)), self.1)
     }
     #[inline(always)]
+    fn reverse(self) -> Self {
+        f32x4(proven!(_mm_shuffle_ps::<0b_00_01_10_11>(self.0, self.0)), self.1)
+    }
+    #[inline(always)]
+    fn zip(self, b: Self) -> (Self, Self) {
+        proven!((
+            f32x4(_mm_unpacklo_ps(self.0, b.0), self.1),
+            f32x4(_mm_unpackhi_ps(self.0, b.0), self.1),
+        ))
+    }
+    #[inline(always)]
+    fn zip_halves(self, b: Self) -> (Self, Self) {
+        proven!((
+            f32x4(_mm_movelh_ps(self.0, b.0), self.1),
+            f32x4(_mm_movehl_ps(b.0, self.0), self.1),
+        ))
+    }
+    #[inline(always)]
+    fn unzip(self, b: Self) -> (Self, Self) {
+        proven!((
+            f32x4(_mm_shuffle_ps::<0b_10_00_10_00>(self.0, b.0), self.1),
+            f32x4(_mm_shuffle_ps::<0b_11_01_11_01>(self.0, b.0), self.1),
+        ))
+    }
+    #[inline(always)]
     fn reduce<F: Fold>(self) -> f32 {
         reduce::four::<F, Self>(self)
     }
@@ -224,7 +267,9 @@ operators! { [L: Xmm] f32x4<L> {
     Div div DivAssign div_assign |a, b| f32x4(proven!(_mm_div_ps(a.0, b.0)), a.1);
 }}
 unary_operator! { [L: Xmm] f32x4<L> {
-    Neg neg |a| f32x4(proven!(_mm_xor_ps(a.0, _mm_set1_ps(-0.0))), a.1)
+    // LLVM makes it an exclusive or, or a part of a fused operation; an exclusive or written here
+    // it does not take for a negation.
+    Neg neg |a| f32x4(proven!(_mm_sub_ps(_mm_set1_ps(-0.0), a.0)), a.1)
 }}
 
 impl<L: Xmm> SimdF32 for f32x4<L> {
@@ -290,6 +335,10 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         f32x4(proven!(_mm_cvtepi32_ps(i.0)), i.1)
     }
     #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        u.1.u32_to_f32(u)
+    }
+    #[inline(always)]
     fn to_i32(self) -> Self::I32 {
         proven!({
             // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
@@ -301,31 +350,16 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         })
     }
     #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        self.1.f32_to_u32(self)
+    }
+    #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x4(proven!(_mm_cvttps_epi32(self.0)), self.1)
     }
     #[inline(always)]
-    fn from_u32(u: Self::U32) -> Self {
-        u.1.from_u32(u)
-    }
-    #[inline(always)]
-    fn to_u32(self) -> Self::U32 {
-        proven!({
-            // What is not above zero, NaN too, becomes 0.
-            let x = f32x4(_mm_max_ps(self.0, _mm_setzero_ps()), self.1);
-            let great = _mm_cmpge_ps(x.0, _mm_set1_ps(4_294_967_296.0));
-            u32x4(_mm_or_si128(x.to_u32_fast().0, _mm_castps_si128(great)), self.1)
-        })
-    }
-    #[inline(always)]
     fn to_u32_fast(self) -> Self::U32 {
-        proven!({
-            // What does not fit an i32 becomes i32::MIN: to its bit comes the rest above 2^31.
-            let low = _mm_cvttps_epi32(self.0);
-            let rest = _mm_sub_ps(self.0, _mm_set1_ps(2_147_483_648.0));
-            let rest = _mm_and_si128(_mm_cvttps_epi32(rest), _mm_srai_epi32::<31>(low));
-            u32x4(_mm_or_si128(low, rest), self.1)
-        })
+        self.1.f32_to_u32_fast(self)
     }
 }
 
@@ -386,6 +420,35 @@ macro_rules! integers {
             #[inline(always)]
             fn masked(self, m: mask32x4<L>) -> Self {
                 $name(proven!(_mm_and_si128(_mm_castps_si128(m.0), self.0)), self.1)
+            }
+            #[inline(always)]
+            fn reverse(self) -> Self {
+                $name(proven!(_mm_shuffle_epi32::<0b_00_01_10_11>(self.0)), self.1)
+            }
+            #[inline(always)]
+            fn zip(self, b: Self) -> (Self, Self) {
+                proven!((
+                    $name(_mm_unpacklo_epi32(self.0, b.0), self.1),
+                    $name(_mm_unpackhi_epi32(self.0, b.0), self.1),
+                ))
+            }
+            #[inline(always)]
+            fn zip_halves(self, b: Self) -> (Self, Self) {
+                proven!((
+                    $name(_mm_unpacklo_epi64(self.0, b.0), self.1),
+                    $name(_mm_unpackhi_epi64(self.0, b.0), self.1),
+                ))
+            }
+            #[inline(always)]
+            fn unzip(self, b: Self) -> (Self, Self) {
+                proven!({
+                    let (x, y) = (_mm_castsi128_ps(self.0), _mm_castsi128_ps(b.0));
+                    let (even, odd) = f32x4(x, self.1).unzip(f32x4(y, b.1));
+                    (
+                        $name(_mm_castps_si128(even.0), self.1),
+                        $name(_mm_castps_si128(odd.0), self.1),
+                    )
+                })
             }
             #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {

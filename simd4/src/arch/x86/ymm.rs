@@ -13,8 +13,54 @@ use crate::types::reduce::Fold;
 use crate::types::{conversions, operators, soft, unary_operator};
 use crate::{Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide};
 
-/// A level whose token proves AVX2 and FMA.
-pub trait Ymm: Xmm {}
+/// What differs between the levels of 256-bit registers; their token proves AVX2 and FMA. As
+/// provided: AVX2.
+pub trait Ymm: Xmm {
+    #[inline(always)]
+    fn blend(self, m: __m256, a: __m256, b: __m256) -> __m256 {
+        proven!(_mm256_blendv_ps(b, a, m))
+    }
+    /// As in `xmm`, by lanes and not by bytes.
+    #[inline(always)]
+    fn blend_i32(self, m: __m256i, a: __m256i, b: __m256i) -> __m256i {
+        proven!({
+            let (a, b) = (_mm256_castsi256_ps(a), _mm256_castsi256_ps(b));
+            _mm256_castps_si256(_mm256_blendv_ps(b, a, _mm256_castsi256_ps(m)))
+        })
+    }
+    /// As in `xmm`.
+    #[inline(always)]
+    fn u32_to_f32(self, u: u32x8<Self>) -> f32x8<Self> {
+        proven!({
+            let low = _mm256_blend_epi16::<0xaa>(u.0, _mm256_set1_epi32(0x4b00_0000));
+            let high = _mm256_srli_epi32::<16>(u.0);
+            let high = _mm256_blend_epi16::<0xaa>(high, _mm256_set1_epi32(0x5300_0000));
+            let high = _mm256_castsi256_ps(high);
+            let high = _mm256_sub_ps(high, _mm256_set1_ps(soft::TWO_39_AND_23));
+            f32x8(_mm256_add_ps(high, _mm256_castsi256_ps(low)), self)
+        })
+    }
+    /// As in `xmm`.
+    #[inline(always)]
+    fn f32_to_u32(self, x: f32x8<Self>) -> u32x8<Self> {
+        proven!({
+            let x = f32x8(_mm256_max_ps(x.0, _mm256_setzero_ps()), self);
+            let great = _mm256_cmp_ps::<_CMP_GE_OQ>(x.0, _mm256_set1_ps(4_294_967_296.0));
+            let fits = Ymm::f32_to_u32_fast(self, x).0;
+            u32x8(_mm256_or_si256(fits, _mm256_castps_si256(great)), self)
+        })
+    }
+    /// As in `xmm`.
+    #[inline(always)]
+    fn f32_to_u32_fast(self, x: f32x8<Self>) -> u32x8<Self> {
+        proven!({
+            let low = _mm256_cvttps_epi32(x.0);
+            let rest = _mm256_sub_ps(x.0, _mm256_set1_ps(2_147_483_648.0));
+            let rest = _mm256_and_si256(_mm256_cvttps_epi32(rest), _mm256_srai_epi32::<31>(low));
+            u32x8(_mm256_or_si256(low, rest), self)
+        })
+    }
+}
 
 /// Eight lanes of `f32`.
 #[allow(non_camel_case_types)]
@@ -103,7 +149,7 @@ impl<L: Ymm> Lanes for f32x8<L> {
     }
     #[inline(always)]
     fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
-        f32x8(proven!(_mm256_blendv_ps(b.0, a.0, m.0)), a.1)
+        f32x8(Ymm::blend(a.1, m.0, a.0, b.0), a.1)
     }
     #[inline(always)]
     fn masked(self, m: mask32x8<L>) -> Self {
@@ -114,6 +160,39 @@ impl<L: Ymm> Lanes for f32x8<L> {
     #[inline(always)]
     fn merge(m: mask32x8<L>, a: Self, b: Self) -> Self {
         f32x8(proven!(_mm256_or_ps(_mm256_and_ps(m.0, a.0), _mm256_andnot_ps(m.0, b.0))), a.1)
+    }
+    #[inline(always)]
+    fn reverse(self) -> Self {
+        proven!({
+            let order = _mm256_set_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+            f32x8(_mm256_permutevar8x32_ps(self.0, order), self.1)
+        })
+    }
+    #[inline(always)]
+    fn zip(self, b: Self) -> (Self, Self) {
+        proven!({
+            let low = f32x8(_mm256_unpacklo_ps(self.0, b.0), self.1);
+            let high = f32x8(_mm256_unpackhi_ps(self.0, b.0), self.1);
+            low.zip_halves(high)
+        })
+    }
+    #[inline(always)]
+    fn zip_halves(self, b: Self) -> (Self, Self) {
+        proven!((
+            f32x8(_mm256_permute2f128_ps::<0x20>(self.0, b.0), self.1),
+            f32x8(_mm256_permute2f128_ps::<0x31>(self.0, b.0), self.1),
+        ))
+    }
+    #[inline(always)]
+    fn unzip(self, b: Self) -> (Self, Self) {
+        proven!({
+            let even = _mm256_shuffle_ps::<0b_10_00_10_00>(self.0, b.0);
+            let odd = _mm256_shuffle_ps::<0b_11_01_11_01>(self.0, b.0);
+            // The pairs of both registers' lower halves come first.
+            let even = _mm256_permute4x64_pd::<0b_11_01_10_00>(_mm256_castps_pd(even));
+            let odd = _mm256_permute4x64_pd::<0b_11_01_10_00>(_mm256_castps_pd(odd));
+            (f32x8(_mm256_castpd_ps(even), self.1), f32x8(_mm256_castpd_ps(odd), self.1))
+        })
     }
     #[inline(always)]
     fn reduce<F: Fold>(self) -> f32 {
@@ -233,6 +312,10 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
         f32x8(proven!(_mm256_cvtepi32_ps(i.0)), i.1)
     }
     #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        Ymm::u32_to_f32(u.1, u)
+    }
+    #[inline(always)]
     fn to_i32(self) -> Self::I32 {
         proven!({
             // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
@@ -244,39 +327,16 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
         })
     }
     #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        Ymm::f32_to_u32(self.1, self)
+    }
+    #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x8(proven!(_mm256_cvttps_epi32(self.0)), self.1)
     }
-    /// As in `xmm`.
-    #[inline(always)]
-    fn from_u32(u: Self::U32) -> Self {
-        proven!({
-            let low = _mm256_blend_epi16::<0xaa>(u.0, _mm256_set1_epi32(0x4b00_0000));
-            let high = _mm256_srli_epi32::<16>(u.0);
-            let high = _mm256_blend_epi16::<0xaa>(high, _mm256_set1_epi32(0x5300_0000));
-            let high = _mm256_castsi256_ps(high);
-            let high = _mm256_sub_ps(high, _mm256_set1_ps(soft::TWO_39_AND_23));
-            f32x8(_mm256_add_ps(high, _mm256_castsi256_ps(low)), u.1)
-        })
-    }
-    /// As in `xmm`.
-    #[inline(always)]
-    fn to_u32(self) -> Self::U32 {
-        proven!({
-            let x = f32x8(_mm256_max_ps(self.0, _mm256_setzero_ps()), self.1);
-            let great = _mm256_cmp_ps::<_CMP_GE_OQ>(x.0, _mm256_set1_ps(4_294_967_296.0));
-            u32x8(_mm256_or_si256(x.to_u32_fast().0, _mm256_castps_si256(great)), self.1)
-        })
-    }
-    /// As in `xmm`.
     #[inline(always)]
     fn to_u32_fast(self) -> Self::U32 {
-        proven!({
-            let low = _mm256_cvttps_epi32(self.0);
-            let rest = _mm256_sub_ps(self.0, _mm256_set1_ps(2_147_483_648.0));
-            let rest = _mm256_and_si256(_mm256_cvttps_epi32(rest), _mm256_srai_epi32::<31>(low));
-            u32x8(_mm256_or_si256(low, rest), self.1)
-        })
+        Ymm::f32_to_u32_fast(self.1, self)
     }
 }
 
@@ -340,12 +400,7 @@ macro_rules! integers {
             }
             #[inline(always)]
             fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
-                // By lanes and not by bytes: the compiler then knows what the comparison before it
-                // means.
-                proven!({
-                    let (a, b) = (_mm256_castsi256_ps(a.0), _mm256_castsi256_ps(b.0));
-                    $name(_mm256_castps_si256(_mm256_blendv_ps(b, a, m.0)), m.1)
-                })
+                $name(Ymm::blend_i32(a.1, proven!(_mm256_castps_si256(m.0)), a.0, b.0), a.1)
             }
             #[inline(always)]
             fn masked(self, m: mask32x8<L>) -> Self {
@@ -358,6 +413,39 @@ macro_rules! integers {
                     $name(
                         _mm256_or_si256(_mm256_and_si256(m, a.0), _mm256_andnot_si256(m, b.0)),
                         a.1,
+                    )
+                })
+            }
+            #[inline(always)]
+            fn reverse(self) -> Self {
+                proven!({
+                    let order = _mm256_set_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+                    $name(_mm256_permutevar8x32_epi32(self.0, order), self.1)
+                })
+            }
+            #[inline(always)]
+            fn zip(self, b: Self) -> (Self, Self) {
+                proven!({
+                    let low = $name(_mm256_unpacklo_epi32(self.0, b.0), self.1);
+                    let high = $name(_mm256_unpackhi_epi32(self.0, b.0), self.1);
+                    low.zip_halves(high)
+                })
+            }
+            #[inline(always)]
+            fn zip_halves(self, b: Self) -> (Self, Self) {
+                proven!((
+                    $name(_mm256_permute2x128_si256::<0x20>(self.0, b.0), self.1),
+                    $name(_mm256_permute2x128_si256::<0x31>(self.0, b.0), self.1),
+                ))
+            }
+            #[inline(always)]
+            fn unzip(self, b: Self) -> (Self, Self) {
+                proven!({
+                    let (x, y) = (_mm256_castsi256_ps(self.0), _mm256_castsi256_ps(b.0));
+                    let (even, odd) = f32x8(x, self.1).unzip(f32x8(y, b.1));
+                    (
+                        $name(_mm256_castps_si256(even.0), self.1),
+                        $name(_mm256_castps_si256(odd.0), self.1),
                     )
                 })
             }
