@@ -235,6 +235,10 @@ where
         Halves(self.0.to_u32(), self.1.to_u32())
     }
     #[inline(always)]
+    fn floor_to_i32_fast(self) -> Self::I32 {
+        Halves(self.0.floor_to_i32_fast(), self.1.floor_to_i32_fast())
+    }
+    #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         Halves(self.0.to_i32_fast(), self.1.to_i32_fast())
     }

@@ -199,12 +199,11 @@ pub trait Lanes:
         from: &[Self::Elem],
         index: I,
     ) -> Self {
-        let index_of = index.to_array();
         Self::from_array(
             index.token(),
             LaneArray::from_fn(
                 #[inline(always)]
-                |i| from[index_of.as_ref()[i] as usize],
+                |i| from[index.index(i)],
             ),
         )
     }
