@@ -107,6 +107,10 @@ where
         self.0.store(low);
         self.1.store(high);
     }
+    #[inline(always)]
+    fn load_prefix(s: Self::Simd, from: &[Self::Elem], fill: Self::Elem) -> Self {
+        super::load_prefix(s, from, fill)
+    }
 
     halved! {
         min(b);
