@@ -25,7 +25,7 @@ pub trait Join<T>: LaneArray<T> {
 
 macro_rules! join {
     ($half:literal + $other:literal) => {
-        impl<T: Copy + Send + Sync + 'static> Join<T> for [T; $half] {
+        impl<T: Copy + Default + Send + Sync + 'static> Join<T> for [T; $half] {
             type Joined = [T; $half + $other];
             #[inline(always)]
             fn join(low: Self, high: Self) -> Self::Joined {
