@@ -3,7 +3,7 @@
 use crate::matrix::{Build, TARGETS, Target, Tests, Tier};
 use crate::programs::Programs;
 use crate::report::{Done, Report};
-use crate::setup;
+use crate::{setup, tidy};
 use xshell::{Cmd, Shell, cmd};
 
 /// The flags of `ci`.
@@ -11,20 +11,33 @@ use xshell::{Cmd, Shell, cmd};
 pub(crate) struct Options {
     /// Install what is missing.
     pub(crate) setup: bool,
-    /// The inner loop only.
-    pub(crate) fast: bool,
+    /// How much to do.
+    pub(crate) scope: Scope,
+}
+
+/// How much to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Scope {
+    /// What no change goes in without.
+    #[default]
+    EveryRun,
+    /// The inner loop.
+    Fast,
     /// Also what is tested on demand.
-    pub(crate) all: bool,
+    All,
+    /// The tests of one target.
+    Only(&'static str),
 }
 
 /// A check of the source: its name, and what it does.
 type Check = (&'static str, fn(&Shell) -> Done);
 
 /// What the inner loop checks beside the tests.
-const QUICK: [Check; 2] = [("format", format), ("clippy", clippy)];
+const QUICK: [Check; 4] =
+    [("format", format), ("rooms", tidy::rooms), ("arrows", tidy::arrows), ("clippy", clippy)];
 
 /// What else is checked.
-const THOROUGH: [Check; 1] = [("docs", docs)];
+const THOROUGH: [Check; 2] = [("docs", docs), ("licences", licences)];
 
 /// Checks, tests and reports; true if all is well.
 pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
@@ -33,9 +46,12 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     if options.setup {
         setup::components(sh);
     }
-    let checks: Vec<Check> =
-        QUICK.into_iter().chain(THOROUGH.into_iter().filter(|_| !options.fast)).collect();
-    let targets: Vec<&Target> = TARGETS.iter().filter(|target| options.includes(target)).collect();
+    let checks: Vec<Check> = match options.scope {
+        Scope::EveryRun | Scope::All => QUICK.into_iter().chain(THOROUGH).collect(),
+        Scope::Fast => QUICK.to_vec(),
+        Scope::Only(_) => vec![],
+    };
+    let targets: Vec<_> = TARGETS.iter().filter(|target| options.scope.includes(target)).collect();
 
     let total = checks.len() + targets.len();
     let mut numbers = 1..=total;
@@ -60,13 +76,14 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     ok
 }
 
-impl Options {
+impl Scope {
     /// Whether a target is to be tested.
     fn includes(self, target: &Target) -> bool {
-        if self.fast {
-            target.best == Tests::Everything
-        } else {
-            target.tier == Tier::EveryRun || self.all
+        match self {
+            Scope::EveryRun => target.tier == Tier::EveryRun,
+            Scope::Fast => target.best == Tests::Everything,
+            Scope::All => true,
+            Scope::Only(name) => target.name == name,
         }
     }
 }
@@ -117,7 +134,7 @@ fn test(
     let (best, others) = levels.split_last().expect("a list that is as the table demands");
     // The best level without the variable, as it is for everybody.
     report.step(name, best, || programs.run(sh, target, target.best, None));
-    let others = others.iter().filter(|_| !options.fast);
+    let others = others.iter().filter(|_| options.scope != Scope::Fast);
     for (level, tests) in others.filter_map(|level| Some((level, target.others?))) {
         report.step(name, level, || programs.run(sh, target, tests, Some(level)));
     }
@@ -137,6 +154,15 @@ fn docs(sh: &Shell) -> Done {
     succeeds(docs.env("RUSTDOCFLAGS", "-D warnings"))
 }
 
+/// What deny.toml says, where there is who reads it.
+fn licences(sh: &Shell) -> Done {
+    if !setup::runs(cmd!(sh, "cargo deny --version")) {
+        return Done::left("no cargo-deny: cargo install --locked cargo-deny".to_owned());
+    }
+    // Not the advisories: they change without a change here.
+    succeeds(cmd!(sh, "cargo deny --log-level error check licenses bans sources"))
+}
+
 /// Passed if the command succeeds; what it prints passes through.
 pub(crate) fn succeeds(command: Cmd) -> Done {
     command.quiet().run().map_err(|error| error.to_string()).into()
@@ -146,15 +172,15 @@ pub(crate) fn succeeds(command: Cmd) -> Done {
 mod tests {
     use super::*;
 
-    fn names(options: Options) -> Vec<&'static str> {
-        TARGETS.iter().filter(|t| options.includes(t)).map(|t| t.name).collect()
+    fn names(scope: Scope) -> Vec<&'static str> {
+        TARGETS.iter().filter(|target| scope.includes(target)).map(|target| target.name).collect()
     }
 
     #[test]
     fn the_inner_loop_is_this_machine_and_all_is_all() {
-        let every = names(Options::default());
-        let all = names(Options { all: true, ..Options::default() });
-        assert_eq!(names(Options { fast: true, ..Options::default() }), ["native"]);
+        let (every, all) = (names(Scope::EveryRun), names(Scope::All));
+        assert_eq!(names(Scope::Fast), ["native"]);
+        assert_eq!(names(Scope::Only("s390x")), ["s390x"]);
         assert!(every.contains(&"aarch64") && !every.contains(&"s390x"));
         assert!(all.contains(&"s390x") && all.len() == TARGETS.len());
     }

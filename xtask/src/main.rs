@@ -11,7 +11,10 @@ mod matrix;
 mod programs;
 mod report;
 mod setup;
+mod tidy;
 
+use ci::Scope;
+use matrix::Target;
 use std::process::ExitCode;
 use xshell::{Shell, cmd};
 
@@ -19,13 +22,14 @@ use xshell::{Shell, cmd};
 const USAGE: &str = "\
 usage: cargo xtask <command>
 
-  ci [--setup] [--fast | --all]
+  ci [--setup] [--fast | --all | --target NAME]
                     everything that must hold: format, lints, docs, and the tests on every
                     target of the table in xtask/src/matrix.rs, at every level
        --setup      first install what is missing: components and targets of the toolchain
                     through rustup, system packages through apt-get
        --fast       the inner loop: format, lints, tests at the best level of this CPU
        --all        also the targets that are tested on demand
+       --target     that target's tests and nothing else
   cross --target NAME [--setup] [--run] [CARGO ARGUMENTS] [-- ARGUMENTS]
                     cargo test, or with --run cargo run, on a target of the table, for any
                     package; SIMD4_LEVEL in the environment caps the level:
@@ -63,11 +67,19 @@ impl Command {
             "bless" => Command::Bless,
             _ => return Err(format!("there is no command {name:?}")),
         };
-        for &arg in rest {
+        let mut rest = rest.iter();
+        while let Some(&arg) = rest.next() {
             match (&mut command, arg) {
                 (Command::Ci(options), "--setup") => options.setup = true,
-                (Command::Ci(options), "--fast") if !options.all => options.fast = true,
-                (Command::Ci(options), "--all") if !options.fast => options.all = true,
+                (Command::Ci(ci::Options { scope: scope @ Scope::EveryRun, .. }), _)
+                    if ["--fast", "--all", "--target"].contains(&arg) =>
+                {
+                    *scope = match arg {
+                        "--fast" => Scope::Fast,
+                        "--all" => Scope::All,
+                        _ => Scope::Only(Target::named(rest.next().unwrap_or(&""))?.name),
+                    };
+                }
                 _ => return Err(format!("{name} knows no argument {arg:?} here")),
             }
         }
@@ -126,11 +138,12 @@ mod tests {
 
     #[test]
     fn known_arguments_are_understood_in_any_order() {
-        let ci = |setup, fast, all| Ok(Command::Ci(ci::Options { setup, fast, all }));
-        assert_eq!(Command::parse(&["ci"]), ci(false, false, false));
-        assert_eq!(Command::parse(&["ci", "--setup"]), ci(true, false, false));
-        assert_eq!(Command::parse(&["ci", "--fast", "--setup"]), ci(true, true, false));
-        assert_eq!(Command::parse(&["ci", "--setup", "--all"]), ci(true, false, true));
+        let ci = |setup, scope| Ok(Command::Ci(ci::Options { setup, scope }));
+        assert_eq!(Command::parse(&["ci"]), ci(false, Scope::EveryRun));
+        assert_eq!(Command::parse(&["ci", "--setup"]), ci(true, Scope::EveryRun));
+        assert_eq!(Command::parse(&["ci", "--fast", "--setup"]), ci(true, Scope::Fast));
+        assert_eq!(Command::parse(&["ci", "--setup", "--all"]), ci(true, Scope::All));
+        assert_eq!(Command::parse(&["ci", "--target", "s390x"]), ci(false, Scope::Only("s390x")));
         assert_eq!(Command::parse(&["bless"]), Ok(Command::Bless));
     }
 
@@ -154,6 +167,8 @@ mod tests {
             (&["ci", "--setup=yes"], "\"--setup=yes\""),
             (&["ci", "bless"], "\"bless\""),
             (&["ci", "--fast", "--all"], "\"--all\""),
+            (&["ci", "--target"], "no target \"\""),
+            (&["ci", "--target", "vax"], "\"vax\""),
             (&["cross", "-p", "simd4"], "--target"),
             (&["cross", "-p", "simd4", "--target"], "--target"),
             (&["bless", "--fast"], "\"--fast\""),
