@@ -3,7 +3,7 @@
 use crate::matrix::{Build, TARGETS, Target, Tests, Tier};
 use crate::programs::Programs;
 use crate::report::{Done, Report};
-use crate::{setup, tidy};
+use crate::{fuzz, setup, tidy};
 use xshell::{Cmd, Shell, cmd};
 
 /// The flags of `ci`.
@@ -30,14 +30,14 @@ pub(crate) enum Scope {
 }
 
 /// A check of the source: its name, and what it does.
-type Check = (&'static str, fn(&Shell) -> Done);
+type Check = (&'static str, fn(&Shell, Options) -> Done);
 
 /// What the inner loop checks beside the tests.
 const QUICK: [Check; 4] =
-    [("format", format), ("rooms", tidy::rooms), ("arrows", tidy::arrows), ("clippy", clippy)];
+    [("format", format), ("rooms", rooms), ("arrows", arrows), ("clippy", clippy)];
 
 /// What else is checked.
-const THOROUGH: [Check; 2] = [("docs", docs), ("licences", licences)];
+const THOROUGH: [Check; 3] = [("docs", docs), ("licences", licences), ("fuzz targets", fuzz)];
 
 /// Checks, tests and reports; true if all is well.
 pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
@@ -61,7 +61,7 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     let mut report = Report::default();
     for (name, check) in checks {
         announce(name);
-        report.step(name, "", || check(sh));
+        report.step(name, "", || check(sh, options));
     }
     let mut built = None;
     for target in targets {
@@ -140,22 +140,34 @@ fn test(
     }
 }
 
-fn format(sh: &Shell) -> Done {
+fn rooms(sh: &Shell, _: Options) -> Done {
+    tidy::rooms(sh)
+}
+
+fn arrows(sh: &Shell, _: Options) -> Done {
+    tidy::arrows(sh)
+}
+
+fn fuzz(sh: &Shell, options: Options) -> Done {
+    fuzz::check(sh, options.setup)
+}
+
+fn format(sh: &Shell, _: Options) -> Done {
     succeeds(cmd!(sh, "cargo fmt --all --check"))
 }
 
-fn clippy(sh: &Shell) -> Done {
+fn clippy(sh: &Shell, _: Options) -> Done {
     let clippy = cmd!(sh, "cargo clippy --quiet --locked --keep-going --workspace --all-targets");
     succeeds(clippy.args(["--", "-D", "warnings"]))
 }
 
-fn docs(sh: &Shell) -> Done {
+fn docs(sh: &Shell, _: Options) -> Done {
     let docs = cmd!(sh, "cargo doc --quiet --locked --keep-going --workspace --no-deps");
     succeeds(docs.env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 /// What deny.toml says, where there is who reads it.
-fn licences(sh: &Shell) -> Done {
+fn licences(sh: &Shell, _: Options) -> Done {
     if !setup::runs(cmd!(sh, "cargo deny --version")) {
         return Done::left("no cargo-deny: cargo install --locked cargo-deny".to_owned());
     }

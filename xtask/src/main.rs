@@ -5,7 +5,9 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to a person in a terminal")]
 
 mod ci;
+mod coverage;
 mod cross;
+mod fuzz;
 mod levels;
 mod matrix;
 mod programs;
@@ -35,6 +37,9 @@ usage: cargo xtask <command>
                     package; SIMD4_LEVEL in the environment caps the level:
                       cargo xtask cross --target aarch64 -p simd4 -- special_values
                       cargo xtask cross --target haswell --run -p rt-cli -- info
+  fuzz obj|mtl|nff [--seconds N]
+                    random input for a reader, guided by coverage, for a minute or so long
+  coverage          which lines the tests of this machine reach
   bless             let the golden tests rewrite tests/golden; read the diff afterwards
 
 Exit codes: 0 all passed, 1 something failed (or was skipped, where CI=true), 2 usage.";
@@ -46,6 +51,10 @@ enum Command {
     Ci(ci::Options),
     /// `cross`
     Cross(cross::Options),
+    /// `fuzz`
+    Fuzz(fuzz::Options),
+    /// `coverage`
+    Coverage,
     /// `bless`
     Bless,
     /// `--help`, alone or after a command
@@ -64,6 +73,8 @@ impl Command {
         let mut command = match name {
             "ci" => Command::Ci(ci::Options::default()),
             "cross" => return cross::Options::parse(rest).map(Command::Cross),
+            "fuzz" => return fuzz::Options::parse(rest).map(Command::Fuzz),
+            "coverage" => Command::Coverage,
             "bless" => Command::Bless,
             _ => return Err(format!("there is no command {name:?}")),
         };
@@ -100,6 +111,8 @@ fn main() -> ExitCode {
     let done = root().and_then(|sh| match command {
         Command::Ci(options) => Ok(ci::ci(&sh, options)),
         Command::Cross(options) => cross::cross(&sh, &options).map(|()| true),
+        Command::Fuzz(options) => fuzz::fuzz(&sh, &options).map(|()| true),
+        Command::Coverage => coverage::coverage(&sh).map(|()| true),
         Command::Bless => bless(&sh).map(|()| true),
         Command::Help => {
             println!("{USAGE}");
@@ -170,6 +183,8 @@ mod tests {
             (&["ci", "--target"], "no target \"\""),
             (&["ci", "--target", "vax"], "\"vax\""),
             (&["cross", "-p", "simd4"], "--target"),
+            (&["fuzz", "png"], "\"png\""),
+            (&["coverage", "--html"], "\"--html\""),
             (&["cross", "-p", "simd4", "--target"], "--target"),
             (&["bless", "--fast"], "\"--fast\""),
         ] {

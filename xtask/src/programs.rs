@@ -33,11 +33,14 @@ impl Programs {
         let mut command = cargo(sh, target, "test").args(["--locked", "--no-run"]);
         if target.build == Build::default() {
             command = command.arg("--workspace");
-        } else if target.best == Tests::Workspace {
-            // xtask is a tool of the host.
-            command = command.args(["--workspace", "--exclude", "xtask"]);
         } else {
-            command = command.args(CORE.iter().flat_map(|name| ["-p", name]));
+            // Nobody edits and builds again for these in a loop: in one go it is quicker.
+            command = command.env("CARGO_INCREMENTAL", "0");
+            command = match target.best {
+                // xtask is a tool of the host.
+                Tests::Workspace => command.args(["--workspace", "--exclude", "xtask"]),
+                _ => command.args(CORE.iter().flat_map(|name| ["-p", name])),
+            };
         }
         Programs::made_by(command)
     }
