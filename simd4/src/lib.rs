@@ -48,30 +48,94 @@
 //!
 //! # The rules
 //!
-//! * Lane 0 is the lowest address. `f32x4` is always four lanes, `f32x8` always eight;
-//!   `S::f32s` is the level's native width, [`Simd::LANES`].
-//! * Arithmetic is IEEE 754, rounded to nearest even, subnormals kept, and never contracted into
-//!   fused operations.
-//! * `min(a, b)` is `a < b ? a : b` and `max(a, b)` is `a > b ? a : b`: a NaN in either operand
-//!   gives `b`, and so do zeros of different sign.
-//! * Comparisons are ordered and quiet; only `ne` is true on NaN.
-//! * Masks are types of their own, never floats.
+//! * **Lanes.** Lane 0 is the lowest address. `f32x4` is always four lanes, `f32x8` eight, `f32x16`
+//!   sixteen, out of several registers where one is too narrow; `S::f32s` is the level's native
+//!   width, [`Simd::LANES`] lanes.
+//! * **Rounding.** Arithmetic is IEEE 754, rounded to nearest even, with subnormals.
+//! * **Fusing.** Never unasked. `mul_add` and its kin round twice everywhere, `fused_mul_add` and
+//!   its kin once everywhere, by emulation where the CPU cannot; `mul_add_fast` and its kin do
+//!   what is faster.
+//! * **NaN.** `min(a, b)` is `a < b ? a : b` and `max(a, b)` is `a > b ? a : b`: a NaN in either
+//!   operand gives `b`. `min_num` and `max_num` prefer the number. Comparisons are ordered and
+//!   quiet; only `ne` is true on NaN. Which NaN a NaN result is remains open.
+//! * **Signed zeros** compare equal, so `min` and `max` of two give `b`; `min_num` and `max_num`
+//!   tell them apart. Rounding to integers keeps the sign of zero.
+//! * **Reductions** fold lane `i` with lane `i + n / 2` until one is left, on every level.
+//! * **Conversions** to integers are Rust's `as`: toward zero, saturating, NaN to 0.
+//! * **Shifts** by 32 and more give 0, or the sign.
+//! * **Masks** are types of their own, never floats; one bit a lane where the CPU has it so.
+//! * **Bounds.** Nothing reads or writes past a slice; what does not fit panics.
+//!
+//! Only operations whose names end in `_est` and `_fast` may differ between levels, within the
+//! bounds that they state. [`check::levels_agree`] shows that a kernel of your own keeps the
+//! promise too.
+//!
+//! # The levels
+//!
+//! | level | CPUs | lanes | found | guaranteed by a build for |
+//! |---|---|---:|---|---|
+//! | `scalar` | all | 4 | always | everything |
+//! | `sse2` | x86-64, most of x86 | 4 | at run time | x86-64 |
+//! | `sse4.1` | since 2008 | 4 | at run time | x86-64-v2 |
+//! | `avx2` | x86-64-v3: with FMA, BMI1, BMI2, LZCNT, POPCNT, F16C, MOVBE | 8 | at run time | x86-64-v3 |
+//! | `avx512` | x86-64-v4: F, BW, CD, DQ, VL | 16 | at run time | x86-64-v4 |
+//! | `neon` | AArch64 | 4 | at run time | AArch64 |
+//! | `simd128` | WebAssembly | 4 | when compiling | `-C target-feature=+simd128` |
+//!
+//! AVX without AVX2 and FMA falls back to `sse4.1`. 32-bit ARM has no level, since its NEON flushes
+//! subnormals; AltiVec (which the paper that this crate began with had), RVV and SVE have none
+//! because stable Rust does not reach them: there the scalar level runs, as the compiler
+//! vectorises it.
+//!
+//! `Level::best` takes the last that the CPU has, or the one that the environment variable
+//! `SIMD4_LEVEL` names. Without the default feature `std` there is neither detection nor
+//! environment: levels are then those that the build guarantees.
+//!
+//! # Levels cannot be forged
+//!
+//! A token has no public constructor, and the trait is sealed:
+//!
+//! ```compile_fail
+//! let token = simd4::Sse2 { _private: () };
+//! ```
+//!
+//! ```compile_fail
+//! #[derive(Clone, Copy, Debug)]
+//! struct Mine;
+//! impl simd4::Guaranteed for Mine {
+//!     const TOKEN: Self = Mine;
+//! }
+//! ```
+//!
+//! Nor does a vector of a level come from nowhere, by `Default` or out of bytes; what is kept in
+//! memory are blocks ([`Block4`], [`Block8`], [`Block16`]) and the [`AlignedBuf`].
 //!
 //! # The pit
 //!
-//! Instructions beyond the baseline are inlined only into functions compiled for them. In a
-//! kernel mark **every** function `#[inline(always)]`, down from what is dispatched, and write no
-//! closures but those passed straight to an `#[inline(always)]` function: a helper that is not
-//! inlined is compiled for the baseline, calls every operation as a function, and runs fifty
-//! times slower.
+//! Instructions beyond the baseline are inlined only into functions compiled for them, and on
+//! stable Rust a closure or a plain helper inside a kernel is not one. If it is not inlined itself
+//! it calls every operation as a function, and runs fifty times slower; whether it is inlined is
+//! decided by its size. So in a kernel:
+//!
+//! * mark **every** function `#[inline(always)]`, from what is dispatched down;
+//! * write loops, not iterator chains: `map` and `for_each` take closures through functions that
+//!   are not yours to mark;
+//! * where a closure must be, pass it straight to an `#[inline(always)]` function, with the
+//!   attribute on the closure expression too.
+//!
+//! What fell in shows in a release binary: `nm -C BINARY | grep core_arch` lists intrinsics that
+//! became functions, and should list none but `_xgetbv`.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod arch;
+#[cfg(feature = "std")]
+pub mod check;
 mod dispatch;
 mod level;
 pub mod math;
 mod simd;
 pub mod spec;
+mod storage;
 mod types;
 
 pub use arch::native::{
@@ -80,6 +144,9 @@ pub use arch::native::{
 pub use arch::tokens::*;
 pub use level::{Level, LevelError};
 pub use simd::{Guaranteed, Simd};
+#[cfg(feature = "std")]
+pub use storage::AlignedBuf;
+pub use storage::{Block, Block4, Block8, Block16};
 pub use types::{
     Element, Halves, LaneArray, Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Swizzle, Wide,
 };
@@ -92,3 +159,7 @@ pub mod prelude {
         Guaranteed, Lanes, Level, Simd, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide,
     };
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,5 +1,7 @@
 //! What is built of the operations, for any lanes.
 
+mod transpose;
 mod vec3;
 
+pub use transpose::transpose;
 pub use vec3::Vec3;

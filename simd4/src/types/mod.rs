@@ -25,6 +25,7 @@ use core::ops::{Add, AddAssign, Mul, MulAssign, Sub, SubAssign};
 
 use crate::Simd;
 use crate::simd::sealed::Sealed;
+use crate::storage::Block;
 
 /// Lanes of numbers: memory, arithmetic, comparisons, moves and reductions.
 ///
@@ -105,6 +106,21 @@ pub trait Lanes:
     #[inline(always)]
     fn store(self, to: &mut [Self::Elem]) {
         to[..Self::LANES].copy_from_slice(self.to_array().as_ref());
+    }
+
+    /// The numbers of a block, which is aligned.
+    #[inline(always)]
+    fn load_aligned<B: Block<Elem = Self::Elem, Array = Self::Array>>(
+        s: Self::Simd,
+        from: &B,
+    ) -> Self {
+        Self::from_array(s, *from.array())
+    }
+
+    /// Writes a block, which is aligned.
+    #[inline(always)]
+    fn store_aligned<B: Block<Elem = Self::Elem, Array = Self::Array>>(self, to: &mut B) {
+        *to.array_mut() = self.to_array();
     }
 
     /// The elements of a slice of any length, as many as there are lanes for; the lanes beyond
