@@ -4,6 +4,7 @@
 //! subcommand here, in Rust and without dependencies on the workspace that it judges.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to a person in a terminal")]
 
+mod asm;
 mod ci;
 mod levels;
 mod matrix;
@@ -21,6 +22,10 @@ usage: cargo xtask <command>
        --setup            first install what is missing: components and targets of the
                           toolchain through rustup, system packages through apt-get
        --fast             format, lints, and tests at the best level of this CPU only
+  asm [--bless]           read the machine code of every operation and kernel at every level:
+                          no intrinsic that is a function, no call in a hot loop, no legacy SSE
+                          among VEX instructions, and the instructions that the docs state
+       --bless            write simd4/INSTRUCTIONS.md instead of checking it
   bless                   let the golden tests rewrite tests/golden; read the diff afterwards
 
 Exit codes: 0 all passed, 1 something failed (or was skipped, where CI=true), 2 usage.";
@@ -30,6 +35,11 @@ Exit codes: 0 all passed, 1 something failed (or was skipped, where CI=true), 2 
 enum Command {
     /// `ci`
     Ci(ci::Options),
+    /// `asm`
+    Asm {
+        /// Whether the instruction table is to be written.
+        bless: bool,
+    },
     /// `bless`
     Bless,
     /// `--help`, alone or after a command
@@ -46,6 +56,7 @@ impl Command {
         }
         let mut command = match name {
             "ci" => Command::Ci(ci::Options::default()),
+            "asm" => Command::Asm { bless: false },
             "bless" => Command::Bless,
             _ => return Err(format!("there is no command {name:?}")),
         };
@@ -53,6 +64,7 @@ impl Command {
             match (&mut command, arg) {
                 (Command::Ci(options), "--setup") => options.setup = true,
                 (Command::Ci(options), "--fast") => options.fast = true,
+                (Command::Asm { bless }, "--bless") => *bless = true,
                 _ => return Err(format!("{name} knows no argument {arg:?}")),
             }
         }
@@ -72,6 +84,7 @@ fn main() -> ExitCode {
     };
     let done = root().and_then(|sh| match command {
         Command::Ci(options) => Ok(ci::ci(&sh, options)),
+        Command::Asm { bless } => Ok(asm::asm(&sh, bless)),
         Command::Bless => bless(&sh).map(|()| true),
         Command::Help => {
             println!("{USAGE}");
@@ -113,6 +126,8 @@ mod tests {
         assert_eq!(Command::parse(&["ci"]), ci(false, false));
         assert_eq!(Command::parse(&["ci", "--setup"]), ci(true, false));
         assert_eq!(Command::parse(&["ci", "--fast", "--setup"]), ci(true, true));
+        assert_eq!(Command::parse(&["asm"]), Ok(Command::Asm { bless: false }));
+        assert_eq!(Command::parse(&["asm", "--bless"]), Ok(Command::Asm { bless: true }));
         assert_eq!(Command::parse(&["bless"]), Ok(Command::Bless));
     }
 

@@ -92,6 +92,14 @@ impl Flow {
             }
         }
     }
+
+    /// Whether all that can return is run once from the first to the last.
+    pub(crate) fn is_straight(&self, returning: &[bool]) -> bool {
+        self.next.iter().enumerate().all(|(i, next)| {
+            let mut on = next.iter().filter(|&&to| returning[to]);
+            !returning[i] || on.all(|&to| to == i + 1)
+        })
+    }
 }
 
 /// Whether an instruction calls, and whom if it says so.
@@ -129,12 +137,7 @@ fn places<'a>(function: &Function, labels: impl IntoIterator<Item = &'a str>) ->
 }
 
 /// A jump within the function, by a table if it does not say where, or out of it.
-fn jump(
-    target: &str,
-    indirect: bool,
-    function: &Function,
-    tabled: &HashSet<String>,
-) -> Step {
+fn jump(target: &str, indirect: bool, function: &Function, tabled: &HashSet<String>) -> Step {
     let to = match indirect {
         true => places(function, tabled.iter().map(String::as_str)),
         false => places(function, [target]),
@@ -159,9 +162,7 @@ fn x86(instruction: &Instruction, function: &Function, tabled: &HashSet<String>)
 
 fn arm(instruction: &Instruction, function: &Function, tabled: &HashSet<String>) -> Step {
     match instruction.mnemonic.as_str() {
-        "b" | "br" => {
-            jump(&instruction.operands, instruction.mnemonic == "br", function, tabled)
-        }
+        "b" | "br" => jump(&instruction.operands, instruction.mnemonic == "br", function, tabled),
         "ret" => Step::Exit,
         "brk" | "udf" | "hlt" => Step::Trap,
         "cbz" | "cbnz" | "tbz" | "tbnz" => Step::Branch(places(function, instruction.words())),

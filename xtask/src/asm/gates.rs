@@ -95,9 +95,9 @@ pub(crate) fn is_intrinsic(path: &str) -> bool {
 /// A vector instruction of the newer encodings.
 fn is_vex(instruction: &Instruction) -> bool {
     instruction.mnemonic.starts_with('v')
-        && instruction.words().any(|word| {
-            ["xmm", "ymm", "zmm"].iter().any(|kind| word.starts_with(kind))
-        })
+        && instruction
+            .words()
+            .any(|word| ["xmm", "ymm", "zmm"].iter().any(|kind| word.starts_with(kind)))
 }
 
 /// A vector instruction of the older encoding.
@@ -131,4 +131,111 @@ fn hot_calls<'a>(
         .map(|(_, instruction)| instruction)
         .filter(may_return)
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MUL: &str = "_RNvNtNtNtCs1_4core9core_arch3x863avx13__mm256_mul_ps";
+    const XGETBV: &str = "_RNvNtNtNtCs1_4core9core_arch3x865xsave7__xgetbv";
+    const PANIC: &str = "_RNvNtCs1_4core9panicking5panic";
+    const OP: &str = "_RNvNtNtNtCs1_11simd4_probe3ops4avx25f32x83add";
+    const PREFIX: &str = "_RNvNtNtNtCs1_11simd4_probe3ops4avx25f32x811load_prefix";
+    const KERNEL: &str = "_RNvNtNtCs1_11simd4_probe7kernels2x83dot";
+    const RENDER: &str = "_RNvCs1_10rt_kernels5build";
+
+    /// The faults of one function, each as its rule and instruction.
+    fn faults(arch: Arch, calls: Calls, symbol: &str, code: &str) -> Vec<(Rule, String)> {
+        let text = format!("\t.type {symbol},@function\n{symbol}:\n{code}\n\t.size {symbol}, 1\n");
+        let faults = check(&Listing::parse(&text), arch, calls);
+        faults.into_iter().map(|fault| (fault.rule, fault.instruction)).collect()
+    }
+
+    fn of_probe(symbol: &str, code: &str) -> Vec<(Rule, String)> {
+        faults(Arch::X86, Calls::OfProbe, symbol, code)
+    }
+
+    #[test]
+    fn the_paths_are_what_the_tests_below_take_them_for() {
+        assert_eq!(path(MUL), "core::core_arch::x86::avx::_mm256_mul_ps");
+        assert_eq!(path(XGETBV), "core::core_arch::x86::xsave::_xgetbv");
+        assert_eq!(path(OP), "simd4_probe::ops::avx2::f32x8::add");
+        assert_eq!(path(PREFIX), "simd4_probe::ops::avx2::f32x8::load_prefix");
+        assert_eq!(path(KERNEL), "simd4_probe::kernels::x8::dot");
+    }
+
+    #[test]
+    fn an_intrinsic_is_a_fault_where_it_stands_and_where_it_is_used() {
+        let found = of_probe(MUL, "vmulps ymm0, ymm0, ymm1\nret");
+        assert_eq!(found, [(Rule::Intrinsic, "the function itself".to_owned())]);
+        for (arch, code) in [
+            (Arch::X86, format!("call qword ptr [rip + {MUL}@GOTPCREL]\nret")),
+            (Arch::X86, format!("jmp {MUL}")),
+            (Arch::X86, format!("lea rax, [rip + {MUL}]\nret")),
+            (Arch::Arm, format!("bl {MUL}\nret")),
+            (Arch::Wasm, format!("call {MUL}")),
+        ] {
+            let found = faults(arch, Calls::OfLevels, RENDER, &code);
+            let [(Rule::Intrinsic, instruction)] = found.as_slice() else { panic!("{found:?}") };
+            assert!(instruction.contains("core::core_arch::x86::avx::_mm256_mul_ps"));
+        }
+    }
+
+    #[test]
+    fn detection_may_call_its_own() {
+        assert_eq!(of_probe(XGETBV, "xgetbv\nret"), []);
+        assert_eq!(of_probe(KERNEL, &format!("call qword ptr [rip + {XGETBV}@GOTPCREL]\nret")), []);
+    }
+
+    #[test]
+    fn a_kernel_calls_nothing_in_its_loops() {
+        let called = |code: &str| of_probe(KERNEL, code);
+        let fault = vec![(Rule::Call, "call memcpy@PLT".to_owned())];
+        assert_eq!(called(".LBB0_1:\ncall memcpy@PLT\ndec rax\njne .LBB0_1\nret"), fault);
+        assert_eq!(called("call memcpy@PLT\n.LBB0_1:\ndec rax\njne .LBB0_1\nret"), []);
+        let panics = format!(
+            ".LBB0_1:\ncmp rax, 9\nja .LBB0_2\ndec rax\njne .LBB0_1\nret\n.LBB0_2:\ncall {PANIC}\n\
+             jmp .LBB0_1"
+        );
+        assert_eq!(called(&panics), []);
+    }
+
+    #[test]
+    fn an_operation_calls_nothing_at_all() {
+        let code = "call qword ptr [rip + memcpy@GOTPCREL]\nret";
+        assert_eq!(of_probe(OP, code).len(), 1);
+        assert_eq!(of_probe(PREFIX, code), []);
+        assert_eq!(
+            of_probe(OP, &format!("cmp rsi, 7\nja .LBB0_1\ncall {PANIC}\n.LBB0_1:\nret")),
+            []
+        );
+    }
+
+    #[test]
+    fn other_crates_are_held_to_it_only_where_they_are_compiled_for_a_level() {
+        let looping = ".LBB0_1:\ncall rax\njmp .LBB0_1";
+        assert_eq!(faults(Arch::X86, Calls::OfLevels, RENDER, looping), []);
+        assert_eq!(faults(Arch::X86, Calls::OfLevels, KERNEL, looping), []);
+        let level = "_RNvXNtNtNtCs1_5simd44arch3x864avx2NtB2_4Avx2NtNtB8_4simd4Simd9vectorize";
+        assert!(path(level).contains("simd4::"), "{}", path(level));
+        assert_eq!(faults(Arch::X86, Calls::OfLevels, level, looping).len(), 1);
+    }
+
+    #[test]
+    fn legacy_sse_is_a_fault_beside_vex_only() {
+        let fault = |instruction: &str| vec![(Rule::Mixed, instruction.to_owned())];
+        assert_eq!(of_probe(OP, "addps xmm0, xmm1\nret"), []);
+        assert_eq!(of_probe(OP, "vaddps xmm0, xmm0, xmm1\npush rax\nret"), []);
+        assert_eq!(
+            of_probe(OP, "vaddps ymm0, ymm0, ymm1\naddps xmm0, xmm1\nret"),
+            fault("addps xmm0, xmm1")
+        );
+        assert_eq!(
+            of_probe(OP, "movd xmm0, edi\nvaddps zmm0, zmm0, zmm1\nret"),
+            fault("movd xmm0, edi")
+        );
+        // `verr` is old and has nothing to do with vectors.
+        assert_eq!(of_probe(OP, "verr ax\naddps xmm0, xmm1\nret"), []);
+    }
 }

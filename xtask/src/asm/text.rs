@@ -113,7 +113,8 @@ impl Listing {
             } else if let (Some(function), false) =
                 (&mut open, line.is_empty() || line.starts_with(['#', ';']))
             {
-                let (mnemonic, operands) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+                let (mnemonic, operands) =
+                    line.split_once(char::is_whitespace).unwrap_or((line, ""));
                 function.code.push(Instruction {
                     mnemonic: mnemonic.to_owned(),
                     operands: operands.trim().to_owned(),
@@ -180,7 +181,8 @@ mod tests {
             "\t.type\tf,@function\nf:\n\t.functype\tf (i32) -> ()\n\tblock   \t\n\
              \tlocal.get\t0\n\tend_function\n\t.type\tg,@function\ng:\n\treturn\n\tend_function\n",
         );
-        let symbols: Vec<_> = listing.functions.iter().map(|f| (&*f.symbol, f.code.len())).collect();
+        let symbols: Vec<_> =
+            listing.functions.iter().map(|f| (&*f.symbol, f.code.len())).collect();
         assert_eq!(symbols, [("f", 2), ("g", 1)]);
     }
 
@@ -190,9 +192,6 @@ mod tests {
             mnemonic: "call".to_owned(),
             operands: "qword ptr [rip + _RNvNtCs1_4core9panicking5panic@GOTPCREL]".to_owned(),
         };
-        assert_eq!(
-            call.to_string(),
-            "call qword ptr [rip + core::panicking::panic@GOTPCREL]"
-        );
+        assert_eq!(call.to_string(), "call qword ptr [rip + core::panicking::panic@GOTPCREL]");
     }
 }
