@@ -3,6 +3,7 @@
 use core::ops::{Div, DivAssign, Neg};
 
 use super::{Lanes, SimdI32, SimdU32, soft};
+use crate::math::elementary;
 
 /// Lanes of `f32`. Arithmetic is IEEE 754, rounded to nearest even, and never contracted.
 pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Output = Self> {
@@ -159,6 +160,24 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
     #[inline(always)]
     fn rsqrt_fast(self) -> Self {
         Self::splat(self.token(), 1.0) / self.sqrt()
+    }
+
+    // Elementary functions, the same bits on every level
+
+    /// [`spec::exp2`](crate::spec::exp2): 2 to the power of each lane, to 1.11 ulp.
+    #[inline(always)]
+    fn exp2(self) -> Self {
+        elementary::exp2(self)
+    }
+    /// [`spec::log2`](crate::spec::log2): the logarithm to base 2, to 2.17 ulp.
+    #[inline(always)]
+    fn log2(self) -> Self {
+        elementary::log2(self)
+    }
+    /// [`spec::pow`](crate::spec::pow): each lane to the power of the other, to 4 ulp.
+    #[inline(always)]
+    fn pow(self, exponent: Self) -> Self {
+        elementary::pow(self, exponent)
     }
 
     // Conversions

@@ -9,6 +9,7 @@
 #![allow(clippy::print_stderr, reason = "a skipped test says why")]
 
 mod definition;
+mod elementary;
 mod lanes;
 mod numbers;
 mod sweeps;
@@ -179,7 +180,7 @@ macro_rules! stamp {
             #[test]
             fn a_stride_of_all_inputs() {
                 let Some(level) = level($name) else { return };
-                on::one_operand(level, 12_007 * sweeps::stride());
+                on::one_operand(level, 12_007_u32.saturating_mul(sweeps::stride()));
             }
 
             #[test]

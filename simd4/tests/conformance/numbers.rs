@@ -33,7 +33,7 @@ pub(crate) fn in_lanes<V: Lanes, const K: usize>(
     }
 }
 
-pub(crate) fn float_unary<V: SimdF32>() -> [Unary<V, f32>; 8] {
+fn float_unary<V: SimdF32>() -> [Unary<V, f32>; 10] {
     [
         ("neg", |a| -a, |a| -a),
         ("abs", V::abs, spec::abs),
@@ -42,11 +42,13 @@ pub(crate) fn float_unary<V: SimdF32>() -> [Unary<V, f32>; 8] {
         ("ceil", V::ceil, spec::ceil),
         ("trunc", V::trunc, spec::trunc),
         ("round_ties_even", V::round_ties_even, spec::round_ties_even),
+        ("exp2", V::exp2, spec::exp2),
+        ("log2", V::log2, spec::log2),
         ("bits", |a| V::from_bits(a.to_bits()), |a| a),
     ]
 }
 
-fn float_binary<V: SimdF32>() -> [Binary<V, f32>; 9] {
+fn float_binary<V: SimdF32>() -> [Binary<V, f32>; 10] {
     [
         ("+", |a, b| a + b, |a, b| a + b),
         ("-", |a, b| a - b, |a, b| a - b),
@@ -57,6 +59,7 @@ fn float_binary<V: SimdF32>() -> [Binary<V, f32>; 9] {
         ("min_num", V::min_num, spec::min_num),
         ("max_num", V::max_num, spec::max_num),
         ("copysign", V::copysign, spec::copysign),
+        ("pow", V::pow, spec::pow),
     ]
 }
 
