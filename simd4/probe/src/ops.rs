@@ -125,7 +125,11 @@ macro_rules! floats {
             rcp_fast(a: V) -> V = a.rcp_fast();
             rsqrt_fast(a: V) -> V = a.rsqrt_fast();
 
-            to_bits(a: V) -> U = a.to_bits();
+            exp2(a: V) -> V = a.exp2();
+        log2(a: V) -> V = a.log2();
+        pow(a: V, b: V) -> V = a.pow(b);
+
+        to_bits(a: V) -> U = a.to_bits();
             from_bits(a: U) -> V = V::from_bits(a);
             from_i32(a: I) -> V = V::from_i32(a);
             from_u32(a: U) -> V = V::from_u32(a);
