@@ -12,7 +12,7 @@
 
 use core::f32::consts::{LN_2, LOG2_E};
 
-use crate::{LaneArray, Lanes, SimdF32, SimdInt, SimdMask};
+use crate::{Lanes, SimdF32, SimdInt, SimdMask};
 
 /// The same in every lane.
 #[inline(always)]
@@ -23,10 +23,13 @@ fn splat<V: SimdF32>(s: V::Simd, x: f32) -> V {
 /// A polynomial's coefficients, each in every lane.
 #[inline(always)]
 fn splats<V: SimdF32, const N: usize>(s: V::Simd, c: [f32; N]) -> [V; N] {
-    LaneArray::from_fn(
-        #[inline(always)]
-        |i| V::splat(s, c[i]),
-    )
+    let mut lanes = [V::splat(s, 0.0); N];
+    let mut i = 0;
+    while i < N {
+        lanes[i] = V::splat(s, c[i]);
+        i += 1;
+    }
+    lanes
 }
 
 /// 2ˣ.

@@ -25,7 +25,7 @@ pub trait Join<T>: LaneArray<T> {
 
 macro_rules! join {
     ($half:literal + $other:literal) => {
-        impl<T: Copy + Send + Sync + 'static> Join<T> for [T; $half] {
+        impl<T: Copy + Default + Send + Sync + 'static> Join<T> for [T; $half] {
             type Joined = [T; $half + $other];
             #[inline(always)]
             fn join(low: Self, high: Self) -> Self::Joined {
@@ -119,6 +119,10 @@ where
         Halves(V::select(m.0, a.0, b.0), V::select(m.1, a.1, b.1))
     }
     #[inline(always)]
+    fn reverse(self) -> Self {
+        Halves(self.1.reverse(), self.0.reverse())
+    }
+    #[inline(always)]
     fn zip(self, other: Self) -> (Self, Self) {
         let (low, high) = (self.0.zip(other.0), self.1.zip(other.1));
         (Halves(low.0, low.1), Halves(high.0, high.1))
@@ -131,6 +135,19 @@ where
     #[inline(always)]
     fn reduce<F: Fold>(self) -> Self::Elem {
         F::fold(self.0, self.1).reduce::<F>()
+    }
+    // A level may have its own way for one register.
+    #[inline(always)]
+    fn reduce_sum(self) -> Self::Elem {
+        (self.0 + self.1).reduce_sum()
+    }
+    #[inline(always)]
+    fn reduce_min(self) -> Self::Elem {
+        self.0.min(self.1).reduce_min()
+    }
+    #[inline(always)]
+    fn reduce_max(self) -> Self::Elem {
+        self.0.max(self.1).reduce_max()
     }
 }
 

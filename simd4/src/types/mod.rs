@@ -8,6 +8,7 @@ mod int;
 mod mask;
 pub(crate) mod reduce;
 mod seam;
+#[allow(dead_code, reason = "which of them are needed depends on the architecture")]
 pub(crate) mod soft;
 mod swizzle;
 

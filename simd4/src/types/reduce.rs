@@ -34,6 +34,7 @@ folds! {
 }
 
 /// Four lanes as one, by two folds of a vector with itself.
+#[allow(dead_code, reason = "unused where there are no registers")]
 #[inline(always)]
 pub(crate) fn four<F: Fold, V: Lanes>(v: V) -> V::Elem {
     let v = F::fold(v, crate::swizzle!(v, [2, 3, 0, 1]));

@@ -58,6 +58,18 @@ pub trait Xmm: Simd {
     fn trunc(self, x: f32x4<Self>) -> f32x4<Self> {
         f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC }>(x.0)), self)
     }
+    #[inline(always)]
+    fn u32_to_f32(self, u: u32x4<Self>) -> f32x4<Self> {
+        soft::from_u32(u)
+    }
+    #[inline(always)]
+    fn f32_to_u32(self, x: f32x4<Self>) -> u32x4<Self> {
+        soft::to_u32(x)
+    }
+    #[inline(always)]
+    fn f32_to_u32_fast(self, x: f32x4<Self>) -> u32x4<Self> {
+        soft::to_u32_fast(x)
+    }
 
     /// Whether [`Xmm::fused_mul_add`] is one instruction.
     const FUSED: bool = false;
@@ -200,7 +212,9 @@ operators! { [L: Xmm] f32x4<L> {
     Div div DivAssign div_assign |a, b| f32x4(proven!(_mm_div_ps(a.0, b.0)), a.1);
 }}
 unary_operator! { [L: Xmm] f32x4<L> {
-    Neg neg |a| f32x4(proven!(_mm_xor_ps(a.0, _mm_set1_ps(-0.0))), a.1)
+    // LLVM makes it an exclusive or, or a part of a fused operation; an exclusive or written here
+    // it does not take for a negation.
+    Neg neg |a| f32x4(proven!(_mm_sub_ps(_mm_set1_ps(-0.0), a.0)), a.1)
 }}
 
 impl<L: Xmm> SimdF32 for f32x4<L> {
@@ -266,6 +280,10 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         f32x4(proven!(_mm_cvtepi32_ps(i.0)), i.1)
     }
     #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        u.1.u32_to_f32(u)
+    }
+    #[inline(always)]
     fn to_i32(self) -> Self::I32 {
         proven!({
             // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
@@ -277,8 +295,16 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         })
     }
     #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        self.1.f32_to_u32(self)
+    }
+    #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x4(proven!(_mm_cvttps_epi32(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn to_u32_fast(self) -> Self::U32 {
+        self.1.f32_to_u32_fast(self)
     }
 }
 

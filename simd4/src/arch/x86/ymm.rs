@@ -13,8 +13,30 @@ use crate::types::reduce::Fold;
 use crate::types::{conversions, operators, soft, unary_operator};
 use crate::{Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide};
 
-/// A level whose token proves AVX2 and FMA.
-pub trait Ymm: Xmm {}
+/// What differs between the levels of 256-bit registers; their token proves AVX2 and FMA. As
+/// provided: AVX2.
+pub trait Ymm: Xmm {
+    #[inline(always)]
+    fn blend(self, m: __m256, a: __m256, b: __m256) -> __m256 {
+        proven!(_mm256_blendv_ps(b, a, m))
+    }
+    #[inline(always)]
+    fn blend_i32(self, m: __m256i, a: __m256i, b: __m256i) -> __m256i {
+        proven!(_mm256_blendv_epi8(b, a, m))
+    }
+    #[inline(always)]
+    fn u32_to_f32(self, u: u32x8<Self>) -> f32x8<Self> {
+        soft::from_u32(u)
+    }
+    #[inline(always)]
+    fn f32_to_u32(self, x: f32x8<Self>) -> u32x8<Self> {
+        soft::to_u32(x)
+    }
+    #[inline(always)]
+    fn f32_to_u32_fast(self, x: f32x8<Self>) -> u32x8<Self> {
+        soft::to_u32_fast(x)
+    }
+}
 
 /// Eight lanes of `f32`.
 #[allow(non_camel_case_types)]
@@ -93,7 +115,7 @@ impl<L: Ymm> Lanes for f32x8<L> {
     }
     #[inline(always)]
     fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
-        f32x8(proven!(_mm256_blendv_ps(b.0, a.0, m.0)), a.1)
+        f32x8(Ymm::blend(a.1, m.0, a.0, b.0), a.1)
     }
     #[inline(always)]
     fn reduce<F: Fold>(self) -> f32 {
@@ -190,6 +212,10 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
         f32x8(proven!(_mm256_cvtepi32_ps(i.0)), i.1)
     }
     #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        Ymm::u32_to_f32(u.1, u)
+    }
+    #[inline(always)]
     fn to_i32(self) -> Self::I32 {
         proven!({
             // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
@@ -201,8 +227,16 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
         })
     }
     #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        Ymm::f32_to_u32(self.1, self)
+    }
+    #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x8(proven!(_mm256_cvttps_epi32(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn to_u32_fast(self) -> Self::U32 {
+        Ymm::f32_to_u32_fast(self.1, self)
     }
 }
 
@@ -258,7 +292,7 @@ macro_rules! integers {
             }
             #[inline(always)]
             fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
-                $name(proven!(_mm256_blendv_epi8(b.0, a.0, _mm256_castps_si256(m.0))), a.1)
+                $name(Ymm::blend_i32(a.1, proven!(_mm256_castps_si256(m.0)), a.0, b.0), a.1)
             }
             #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
