@@ -272,7 +272,7 @@ macro_rules! level {
     };
 }
 
-// `scalar` needs no attribute; this one says nothing.
+// Where a level needs no attribute, this one says nothing.
 level!(scalar, Scalar, cfg(all()));
 
 #[cfg(target_arch = "x86_64")]
@@ -281,6 +281,18 @@ level!(sse2, Sse2, target_feature(enable = "sse2"));
 level!(sse41, Sse41, target_feature(enable = "sse4.1"));
 #[cfg(target_arch = "x86_64")]
 level!(avx2, Avx2, target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt,f16c,movbe"));
+#[cfg(target_arch = "x86_64")]
+level!(
+    avx512,
+    Avx512,
+    target_feature(
+        enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,\
+                  avx2,fma,bmi1,bmi2,lzcnt,popcnt,f16c,movbe"
+    )
+);
 
 #[cfg(target_arch = "aarch64")]
 level!(neon, Neon, target_feature(enable = "neon"));
+
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+level!(simd128, Simd128, cfg(all()));

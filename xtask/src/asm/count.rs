@@ -1,6 +1,6 @@
 //! What of a function's instructions is its operation.
 
-use super::flow::Flow;
+use super::flow::{Flow, call};
 use super::text::{Arch, Function, Instruction, Listing};
 use std::fmt;
 
@@ -14,6 +14,8 @@ pub(crate) struct Count {
     mnemonics: Vec<String>,
     /// Whether all of them run, once, whatever the operands.
     straight: bool,
+    /// Whether one of them calls.
+    calls: bool,
 }
 
 impl Count {
@@ -32,6 +34,7 @@ impl Count {
             Arch::Arm => arm,
             Arch::Wasm => wasm,
         };
+        let calls = |(i, code): (usize, &Instruction)| returning[i] && call(code, arch).is_some();
         let code = function.code.iter().enumerate().filter(|(i, _)| returning[*i]);
         let counted = code.filter(|(_, instruction)| match kind(instruction) {
             Kind::Work => true,
@@ -41,6 +44,7 @@ impl Count {
         Count {
             mnemonics: counted.map(|(_, instruction)| instruction.mnemonic.clone()).collect(),
             straight: flow.is_straight(&returning),
+            calls: function.code.iter().enumerate().any(calls),
         }
     }
 }
@@ -51,7 +55,11 @@ impl fmt::Display for Count {
             n @ 1..=NAMED if self.straight => {
                 write!(f, "`{}`", self.mnemonics[..n].join(" "))
             }
-            n => write!(f, "{n}{}", if self.straight { "" } else { "+" }),
+            n => {
+                let branches = if self.straight { "" } else { "+" };
+                let calls = if self.calls { " and a call" } else { "" };
+                write!(f, "{n}{branches}{calls}")
+            }
         }
     }
 }
@@ -172,6 +180,8 @@ mod tests {
     fn branches_that_both_return_leave_a_number_only() {
         let code = "test edi, edi\nje .LBB0_2\naddps xmm0, xmm1\n.LBB0_2:\nret";
         assert_eq!(count(Arch::X86, code, false), "3+");
+        let code = "test edi, edi\nje .LBB0_2\ncall memcpy@PLT\n.LBB0_2:\nret";
+        assert_eq!(count(Arch::X86, code, false), "3+ and a call");
     }
 
     #[test]

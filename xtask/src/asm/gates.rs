@@ -45,20 +45,11 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Which calls are faults.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Calls {
-    /// Those in loops, and those of the operations of the probe.
-    OfProbe,
-    /// Those in the loops of functions that are compiled for a level.
-    OfLevels,
-}
-
 /// Operations that copy as many elements as a slice has.
 const MAY_COPY: [&str; 2] = ["load_prefix", "store_prefix"];
 
 /// All faults of a listing.
-pub(crate) fn check(listing: &Listing, arch: Arch, calls: Calls) -> Vec<Fault> {
+pub(crate) fn check(listing: &Listing, arch: Arch) -> Vec<Fault> {
     let mut faults = Vec::new();
     for function in &listing.functions {
         let name = path(&function.symbol);
@@ -80,7 +71,7 @@ pub(crate) fn check(listing: &Listing, arch: Arch, calls: Calls) -> Vec<Fault> {
                 fault(Rule::Mixed, instruction);
             }
         }
-        for instruction in hot_calls(function, &name, listing, arch, calls) {
+        for instruction in hot_calls(function, &name, listing, arch) {
             fault(Rule::Call, instruction);
         }
     }
@@ -112,13 +103,9 @@ fn hot_calls<'a>(
     name: &str,
     listing: &Listing,
     arch: Arch,
-    calls: Calls,
 ) -> Vec<&'a Instruction> {
-    let operation = calls == Calls::OfProbe && name.contains("::ops::");
-    let exempt = match calls {
-        Calls::OfProbe => operation && MAY_COPY.iter().any(|op| name.ends_with(op)),
-        Calls::OfLevels => !name.contains("simd4::"),
-    };
+    let operation = name.contains("::ops::");
+    let exempt = operation && MAY_COPY.iter().any(|op| name.ends_with(op));
     let may_return = |instruction: &&Instruction| {
         call(instruction, arch).is_some_and(|callee| !callee.is_some_and(never_returns))
     };
@@ -143,17 +130,16 @@ mod tests {
     const OP: &str = "_RNvNtNtNtCs1_11simd4_probe3ops4avx25f32x83add";
     const PREFIX: &str = "_RNvNtNtNtCs1_11simd4_probe3ops4avx25f32x811load_prefix";
     const KERNEL: &str = "_RNvNtNtCs1_11simd4_probe7kernels2x83dot";
-    const RENDER: &str = "_RNvCs1_10rt_kernels5build";
 
     /// The faults of one function, each as its rule and instruction.
-    fn faults(arch: Arch, calls: Calls, symbol: &str, code: &str) -> Vec<(Rule, String)> {
+    fn faults(arch: Arch, symbol: &str, code: &str) -> Vec<(Rule, String)> {
         let text = format!("\t.type {symbol},@function\n{symbol}:\n{code}\n\t.size {symbol}, 1\n");
-        let faults = check(&Listing::parse(&text), arch, calls);
+        let faults = check(&Listing::parse(&text), arch);
         faults.into_iter().map(|fault| (fault.rule, fault.instruction)).collect()
     }
 
-    fn of_probe(symbol: &str, code: &str) -> Vec<(Rule, String)> {
-        faults(Arch::X86, Calls::OfProbe, symbol, code)
+    fn on_x86(symbol: &str, code: &str) -> Vec<(Rule, String)> {
+        faults(Arch::X86, symbol, code)
     }
 
     #[test]
@@ -167,7 +153,7 @@ mod tests {
 
     #[test]
     fn an_intrinsic_is_a_fault_where_it_stands_and_where_it_is_used() {
-        let found = of_probe(MUL, "vmulps ymm0, ymm0, ymm1\nret");
+        let found = on_x86(MUL, "vmulps ymm0, ymm0, ymm1\nret");
         assert_eq!(found, [(Rule::Intrinsic, "the function itself".to_owned())]);
         for (arch, code) in [
             (Arch::X86, format!("call qword ptr [rip + {MUL}@GOTPCREL]\nret")),
@@ -176,7 +162,7 @@ mod tests {
             (Arch::Arm, format!("bl {MUL}\nret")),
             (Arch::Wasm, format!("call {MUL}")),
         ] {
-            let found = faults(arch, Calls::OfLevels, RENDER, &code);
+            let found = faults(arch, KERNEL, &code);
             let [(Rule::Intrinsic, instruction)] = found.as_slice() else { panic!("{found:?}") };
             assert!(instruction.contains("core::core_arch::x86::avx::_mm256_mul_ps"));
         }
@@ -184,13 +170,13 @@ mod tests {
 
     #[test]
     fn detection_may_call_its_own() {
-        assert_eq!(of_probe(XGETBV, "xgetbv\nret"), []);
-        assert_eq!(of_probe(KERNEL, &format!("call qword ptr [rip + {XGETBV}@GOTPCREL]\nret")), []);
+        assert_eq!(on_x86(XGETBV, "xgetbv\nret"), []);
+        assert_eq!(on_x86(KERNEL, &format!("call qword ptr [rip + {XGETBV}@GOTPCREL]\nret")), []);
     }
 
     #[test]
     fn a_kernel_calls_nothing_in_its_loops() {
-        let called = |code: &str| of_probe(KERNEL, code);
+        let called = |code: &str| on_x86(KERNEL, code);
         let fault = vec![(Rule::Call, "call memcpy@PLT".to_owned())];
         assert_eq!(called(".LBB0_1:\ncall memcpy@PLT\ndec rax\njne .LBB0_1\nret"), fault);
         assert_eq!(called("call memcpy@PLT\n.LBB0_1:\ndec rax\njne .LBB0_1\nret"), []);
@@ -204,38 +190,25 @@ mod tests {
     #[test]
     fn an_operation_calls_nothing_at_all() {
         let code = "call qword ptr [rip + memcpy@GOTPCREL]\nret";
-        assert_eq!(of_probe(OP, code).len(), 1);
-        assert_eq!(of_probe(PREFIX, code), []);
-        assert_eq!(
-            of_probe(OP, &format!("cmp rsi, 7\nja .LBB0_1\ncall {PANIC}\n.LBB0_1:\nret")),
-            []
-        );
-    }
-
-    #[test]
-    fn other_crates_are_held_to_it_only_where_they_are_compiled_for_a_level() {
-        let looping = ".LBB0_1:\ncall rax\njmp .LBB0_1";
-        assert_eq!(faults(Arch::X86, Calls::OfLevels, RENDER, looping), []);
-        assert_eq!(faults(Arch::X86, Calls::OfLevels, KERNEL, looping), []);
-        let level = "_RNvXNtNtNtCs1_5simd44arch3x864avx2NtB2_4Avx2NtNtB8_4simd4Simd9vectorize";
-        assert!(path(level).contains("simd4::"), "{}", path(level));
-        assert_eq!(faults(Arch::X86, Calls::OfLevels, level, looping).len(), 1);
+        assert_eq!(on_x86(OP, code).len(), 1);
+        assert_eq!(on_x86(PREFIX, code), []);
+        assert_eq!(on_x86(OP, &format!("cmp rsi, 7\nja .LBB0_1\ncall {PANIC}\n.LBB0_1:\nret")), []);
     }
 
     #[test]
     fn legacy_sse_is_a_fault_beside_vex_only() {
         let fault = |instruction: &str| vec![(Rule::Mixed, instruction.to_owned())];
-        assert_eq!(of_probe(OP, "addps xmm0, xmm1\nret"), []);
-        assert_eq!(of_probe(OP, "vaddps xmm0, xmm0, xmm1\npush rax\nret"), []);
+        assert_eq!(on_x86(OP, "addps xmm0, xmm1\nret"), []);
+        assert_eq!(on_x86(OP, "vaddps xmm0, xmm0, xmm1\npush rax\nret"), []);
         assert_eq!(
-            of_probe(OP, "vaddps ymm0, ymm0, ymm1\naddps xmm0, xmm1\nret"),
+            on_x86(OP, "vaddps ymm0, ymm0, ymm1\naddps xmm0, xmm1\nret"),
             fault("addps xmm0, xmm1")
         );
         assert_eq!(
-            of_probe(OP, "movd xmm0, edi\nvaddps zmm0, zmm0, zmm1\nret"),
+            on_x86(OP, "movd xmm0, edi\nvaddps zmm0, zmm0, zmm1\nret"),
             fault("movd xmm0, edi")
         );
         // `verr` is old and has nothing to do with vectors.
-        assert_eq!(of_probe(OP, "verr ax\naddps xmm0, xmm1\nret"), []);
+        assert_eq!(on_x86(OP, "verr ax\naddps xmm0, xmm1\nret"), []);
     }
 }

@@ -35,6 +35,7 @@ pub(crate) const X86_64: Target = Target {
         Level { name: "sse2", module: "sse2", lanes: 4 },
         Level { name: "sse4.1", module: "sse41", lanes: 4 },
         Level { name: "avx2", module: "avx2", lanes: 8 },
+        Level { name: "avx512", module: "avx512", lanes: 16 },
     ],
 };
 
@@ -52,7 +53,7 @@ pub(crate) const TARGETS: [Target; 3] = [
         name: "wasm32",
         triple: "wasm32-wasip1",
         rustflags: "-C target-feature=+simd128",
-        levels: &[],
+        levels: &[Level { name: "simd128", module: "simd128", lanes: 4 }],
     },
 ];
 

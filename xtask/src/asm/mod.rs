@@ -2,9 +2,9 @@
 //! may stop doing, is seen here.
 //!
 //! `simd4/probe` has every operation as a function, at every level and width, and sample kernels.
-//! It and `rt-kernels` are compiled to assembly for each target that is there, and [`gates`]
-//! lists what must not be found in it. The same assembly makes the [`table`] of instructions
-//! that the documentation of simd4 shows.
+//! It is compiled to assembly for each target that is there, and [`gates`] lists what must not be
+//! found in it; the intrinsics among that not in the program `rt` either. The same assembly makes
+//! the [`table`] of instructions that the documentation of simd4 shows.
 
 mod binary;
 mod build;
@@ -16,8 +16,7 @@ mod table;
 mod text;
 
 use crate::report::Outcome;
-use gates::Calls;
-use levels::{TARGETS, X86_64};
+use levels::TARGETS;
 use table::Table;
 use xshell::{Shell, cmd};
 
@@ -63,14 +62,9 @@ pub(crate) fn check(sh: &Shell, bless: bool) -> Vec<Check> {
         }
         let faults = build::listing(sh, target, "simd4-probe", "").map(|listing| {
             table.add(target, &listing);
-            shown(gates::check(&listing, target.arch, Calls::OfProbe))
+            shown(gates::check(&listing, target.arch))
         });
         checks.push(Check::new(name, faults));
-    }
-    if build::available(sh, X86_64.triple).is_ok() {
-        let faults = build::listing(sh, &X86_64, "rt-kernels", "")
-            .map(|listing| shown(gates::check(&listing, X86_64.arch, Calls::OfLevels)));
-        checks.push(Check::new("asm, rt-kernels", faults));
     }
     checks.push(Check::new("asm, rt", binary::intrinsics(sh)));
     checks.push(instructions(sh, table, bless));
@@ -135,6 +129,7 @@ pub(crate) fn asm(sh: &Shell, bless: bool) -> bool {
 mod tests {
     use super::*;
     use gates::Rule;
+    use levels::X86_64;
 
     /// The plant is what the gates are for: see `simd4/probe/src/planted.rs`.
     #[test]
@@ -144,7 +139,7 @@ mod tests {
             panic!("{reason}");
         }
         let listing = build::listing(&sh, &X86_64, "simd4-probe", "planted").expect("it compiles");
-        let faults = gates::check(&listing, X86_64.arch, Calls::OfProbe);
+        let faults = gates::check(&listing, X86_64.arch);
         let caught = |rule, function: &str, instruction: &str| {
             faults.iter().any(|fault| {
                 fault.rule == rule
