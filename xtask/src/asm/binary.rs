@@ -10,15 +10,15 @@ use xshell::{Shell, cmd};
 /// The intrinsics that are functions of the release build of `rt`: there should be none.
 pub(crate) fn intrinsics(sh: &Shell) -> Result<Vec<String>, String> {
     cmd!(sh, "cargo build --quiet --locked --release -p rt-cli")
-        .env("CARGO_TARGET_DIR", target_directory(sh))
         .quiet()
         .run()
         .map_err(|error| error.to_string())?;
-    let file = target_directory(sh).join(format!("release/rt{EXE_SUFFIX}"));
+    let file = target_directory(sh)?.join(format!("release/rt{EXE_SUFFIX}"));
     let bytes = sh.read_binary_file(&file).map_err(|error| error.to_string())?;
     let object = object::File::parse(&*bytes).map_err(|error| error.to_string())?;
     let names: Vec<String> =
         object.symbols().filter_map(|symbol| symbol.name().ok()).map(path).collect();
+    // A program that was stripped would pass too.
     if !names.iter().any(|name| name.contains("rt_kernels::")) {
         return Err(format!("{} has no symbols to check", file.display()));
     }

@@ -2,53 +2,43 @@
 
 use super::levels::Target;
 use super::text::Listing;
-use std::path::{Path, PathBuf};
+use serde_json::Value;
+use std::path::PathBuf;
 use xshell::{Shell, cmd};
 
-/// Whether the toolchain can compile for a target, or what to do about it.
-pub(crate) fn available(sh: &Shell, triple: &str) -> Result<(), String> {
-    let libs = cmd!(sh, "rustc --print target-libdir --target {triple}").quiet().ignore_stderr();
-    match libs.read() {
-        Ok(dir) if Path::new(&dir).is_dir() => Ok(()),
-        _ => Err(format!("no target {triple}: rustup target add {triple}")),
-    }
+/// The package that is read.
+const PROBE: &str = "simd4-probe";
+
+/// Where cargo builds.
+pub(crate) fn target_directory(sh: &Shell) -> Result<PathBuf, String> {
+    let metadata = cmd!(sh, "cargo metadata --format-version 1 --no-deps --locked").quiet().read();
+    let json = metadata.map_err(|error| error.to_string())?;
+    let json: Value = serde_json::from_str(&json).map_err(|error| error.to_string())?;
+    let directory = json["target_directory"].as_str().ok_or("cargo knows no target directory")?;
+    Ok(directory.into())
 }
 
-/// Where cargo builds; said to cargo too, so that both mean the same.
-pub(crate) fn target_directory(sh: &Shell) -> PathBuf {
-    sh.current_dir().join(sh.var_os("CARGO_TARGET_DIR").unwrap_or("target".into()))
-}
-
-/// Compiles a library of the workspace in release mode and reads its assembly. `features` are the
-/// package's, for cargo.
-pub(crate) fn listing(
-    sh: &Shell,
-    target: &Target,
-    package: &str,
-    features: &str,
-) -> Result<Listing, String> {
+/// Compiles the probe in release mode and reads its assembly.
+pub(crate) fn listing(sh: &Shell, target: &Target, features: &str) -> Result<Listing, String> {
     let Target { triple, rustflags, .. } = target;
-    // Cargo does not know of the file, and so takes it for fresh if only the file is gone; in its
-    // own folder only `cargo clean` removes it, and cargo's memory with it.
-    let directory = target_directory(sh).join("asm");
+    let directory = target_directory(sh)?.join("asm");
     sh.create_dir(&directory).map_err(|error| error.to_string())?;
-    let file = directory.join(format!("{package}{features}-{triple}.s"));
+    let file = directory.join(format!("{PROBE}{features}-{triple}.s"));
     // One unit, as more would make several files. The newer mangling names the level that a
     // generic function is of. Lines' places are of no use.
     let emit = format!("asm={}", file.display());
-    cmd!(sh, "cargo rustc --quiet --locked --release --lib -p {package} --features={features}")
-        .args(["--target", triple, "--", "--emit", &emit, "-C", "codegen-units=1"])
-        .args(["-C", "symbol-mangling-version=v0", "-C", "debuginfo=0"])
-        .args(["-C", "llvm-args=-x86-asm-syntax=intel"])
+    cmd!(sh, "cargo rustc --quiet --locked --release --lib -p {PROBE} --features={features}")
+        .args(["--target", triple, "--", "--emit", &emit, "-Ccodegen-units=1", "-Cdebuginfo=0"])
+        .args(["-Csymbol-mangling-version=v0", "-Cllvm-args=-x86-asm-syntax=intel"])
+        // And so not from the environment or a configuration.
         .env("RUSTFLAGS", rustflags)
-        .env("CARGO_TARGET_DIR", target_directory(sh))
+        .env_remove("CARGO_ENCODED_RUSTFLAGS")
         .quiet()
         .run()
         .map_err(|error| error.to_string())?;
     let text = sh.read_file(&file).map_err(|error| {
-        format!(
-            "{error}; if you have removed it: cargo clean --release --target {triple} -p {package}"
-        )
+        // Cargo does not know of the file, and takes for fresh what is there but for it.
+        format!("{error}; then cargo clean --release --target {triple} -p {PROBE}")
     })?;
     Ok(Listing::parse(&text))
 }

@@ -2,6 +2,7 @@
 
 use super::flow::{Flow, call};
 use super::text::{Arch, Function, Instruction, Listing};
+use std::collections::HashSet;
 use std::fmt;
 
 /// As many instructions are named; of more there is only the number.
@@ -29,10 +30,11 @@ impl Count {
     ) -> Count {
         let flow = Flow::of(function, arch, &listing.tabled);
         let returning = flow.returning();
-        let kind = match arch {
-            Arch::X86 => x86,
-            Arch::Arm => arm,
-            Arch::Wasm => wasm,
+        let immediates = immediates(function);
+        let kind = |instruction| match arch {
+            Arch::X86 => x86(instruction),
+            Arch::Arm => arm(instruction, &immediates),
+            Arch::Wasm => wasm(instruction),
         };
         let calls = |(i, code): (usize, &Instruction)| returning[i] && call(code, arch).is_some();
         let code = function.code.iter().enumerate().filter(|(i, _)| returning[*i]);
@@ -95,10 +97,13 @@ fn x86(instruction: &Instruction) -> Kind {
     let from_itself = ["xor", "pxor", "pcmpeq", "pternlog", "kxnor", "kxor"];
     let registers = || operands.iter().filter(|operand| operand.parse::<i64>().is_err());
     let constant = registers().count() > 1
+        && (name != "pternlogd" || operands.last() == Some(&"255"))
         && registers().all(|register| *register == operands[0])
         && from_itself.iter().any(|start| name.starts_with(start));
     match mnemonic {
         "ret" | "vzeroupper" | "push" | "pop" | "nop" => Kind::Free,
+        // A masked one chooses.
+        _ if moves && instruction.operands.contains("{k") => Kind::Work,
         _ if operands.first() == Some(&"rsp") || constant => Kind::Free,
         _ if moves || spreads => match address {
             Some(_) if base("[rip") => Kind::Free,
@@ -110,7 +115,20 @@ fn x86(instruction: &Instruction) -> Kind {
     }
 }
 
-fn arm(instruction: &Instruction) -> Kind {
+/// The general registers of AArch64 that only ever hold constants.
+fn immediates(function: &Function) -> HashSet<&str> {
+    let sets = |constant: bool| {
+        let code = function.code.iter().filter(move |code| {
+            let immediate = code.operands.contains('#');
+            (["mov", "movk"].contains(&code.mnemonic.as_str()) && immediate) == constant
+        });
+        code.filter_map(|code| code.list().next()).filter(|first| first.starts_with('w'))
+    };
+    let others: HashSet<&str> = sets(false).collect();
+    sets(true).filter(|register| !others.contains(register)).collect()
+}
+
+fn arm(instruction: &Instruction, immediates: &HashSet<&str>) -> Kind {
     let Instruction { mnemonic, operands } = instruction;
     let lane =
         operands.contains("b[") || ["h[", "s[", "d["].iter().any(|size| operands.contains(size));
@@ -121,6 +139,7 @@ fn arm(instruction: &Instruction) -> Kind {
         "add" if operands.starts_with("x29, sp") => Kind::Free,
         "fmov" if immediate => Kind::Free,
         "mov" if !lane => Kind::Free,
+        "dup" if instruction.list().any(|operand| immediates.contains(operand)) => Kind::Free,
         "ldr" | "ldur" | "ldp" | "str" | "stur" | "stp" if operands.contains("[sp") => Kind::Free,
         "ldr" | "ldur" | "ldp" | "str" | "stur" | "stp" => Kind::Memory,
         "ld1" | "st1" if !lane && !operands.contains("}[") => Kind::Memory,
@@ -192,6 +211,11 @@ mod tests {
                 "`and`",
             ),
             ("mov v2.16b, v0.16b\nmovi v1.4s, #128, lsl #24\nbif v0.16b, v2.16b, v1.16b", "`bif`"),
+            (
+                "mov w8, #52429\nmovk w8, #15820, lsl #16\ndup v2.4s, w8\ndup v1.4s, w0\n\
+                 fmul v0.4s, v1.4s, v2.4s",
+                "`dup fmul`",
+            ),
             ("mov v0.s[1], v1.s[0]", "`mov`"),
             (
                 "str q0, [sp, #-16]!\nldr q1, [x0]\nfadd v0.4s, v0.4s, v1.4s\nadd sp, sp, #16",
@@ -200,6 +224,13 @@ mod tests {
         ] {
             assert_eq!(count(Arch::Arm, &format!("{code}\nret"), false), shown, "{code}");
         }
+    }
+
+    #[test]
+    fn what_jumps_over_a_panic_is_straight_on() {
+        let code = "block\nlocal.get 1\ni32.const 3\ni32.gt_u\nbr_if 0\ncall p\nunreachable\n\
+                    end_block\nlocal.get 0\nv128.load 0";
+        assert_eq!(count(Arch::Wasm, code, true), "`i32.gt_u br_if v128.load`");
     }
 
     #[test]

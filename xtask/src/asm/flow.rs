@@ -93,11 +93,11 @@ impl Flow {
         }
     }
 
-    /// Whether all that can return is run once from the first to the last.
+    /// Whether what is run until the function returns does not depend on anything.
     pub(crate) fn is_straight(&self, returning: &[bool]) -> bool {
         self.next.iter().enumerate().all(|(i, next)| {
-            let mut on = next.iter().filter(|&&to| returning[to]);
-            !returning[i] || on.all(|&to| to == i + 1)
+            let on: Vec<usize> = next.iter().copied().filter(|&to| returning[to]).collect();
+            !returning[i] || on.iter().all(|&to| to > i && to == on[0])
         })
     }
 }

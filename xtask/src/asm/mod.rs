@@ -15,114 +15,92 @@ mod levels;
 mod table;
 mod text;
 
-use crate::report::Outcome;
-use levels::TARGETS;
+use crate::report::{Done, Report};
+use crate::setup;
+use levels::{TARGETS, Target};
 use table::Table;
 use xshell::{Shell, cmd};
 
-/// The most faults of one listing that are shown.
+/// The file of the documentation that has the table.
+const FILE: &str = "simd4/INSTRUCTIONS.md";
+
+/// What of a list of faults is said: more of the same teaches nobody anything.
 const SHOWN: usize = 20;
 
-/// One thing checked.
-#[derive(Debug)]
-pub(crate) struct Check {
-    pub(crate) name: String,
-    pub(crate) outcome: Outcome,
-    /// What is wrong or missing.
-    pub(crate) reason: String,
+/// Runs the command: true if nothing failed.
+pub(crate) fn asm(sh: &Shell, bless: bool) -> bool {
+    let mut report = Report::default();
+    check(sh, &mut report, bless);
+    println!("{report}");
+    report.ok(false)
 }
 
-impl Check {
-    fn new(name: impl Into<String>, faults: Result<Vec<String>, String>) -> Check {
-        let (outcome, reason) = match faults {
-            Ok(faults) if faults.is_empty() => (Outcome::Passed, String::new()),
-            Ok(faults) => {
-                let more = faults.len().saturating_sub(SHOWN);
-                let mut lines = faults[..faults.len() - more].to_vec();
-                if more > 0 {
-                    lines.push(format!("and {more} more"));
-                }
-                (Outcome::Failed, lines.join("\n"))
-            }
-            Err(error) => (Outcome::Failed, error),
-        };
-        Check { name: name.into(), outcome, reason }
-    }
-}
-
-/// Checks everything; prints nothing. With `bless` the instruction table is written, not checked.
-pub(crate) fn check(sh: &Shell, bless: bool) -> Vec<Check> {
-    let mut checks = Vec::new();
+/// Checks everything, or with `bless` writes the table and checks the rest.
+pub(crate) fn check(sh: &Shell, report: &mut Report, bless: bool) {
     let mut table = Table::default();
     for target in &TARGETS {
-        let name = format!("asm, {}", target.name);
-        if let Err(reason) = build::available(sh, target.triple) {
-            checks.push(Check { name, outcome: Outcome::Skipped, reason });
-            continue;
-        }
-        let faults = build::listing(sh, target, "simd4-probe", "").map(|listing| {
-            table.add(target, &listing);
-            shown(gates::check(&listing, target.arch))
+        report.step("asm", target.name, || match setup::standard_library(sh, target.triple) {
+            Err(missing) => Done::skipped(missing),
+            Ok(()) => probe(sh, target, &mut table).into(),
         });
-        checks.push(Check::new(name, faults));
     }
-    checks.push(Check::new("asm, rt", binary::intrinsics(sh)));
-    checks.push(instructions(sh, table, bless));
-    checks
+    report.step("asm", "rt", || binary::intrinsics(sh).and_then(none).into());
+    report.step("asm", "table", || match bless {
+        true => write(sh, &table).into(),
+        false => compare(sh, &table),
+    });
 }
 
-/// One line a fault.
-fn shown(faults: Vec<gates::Fault>) -> Vec<String> {
-    faults.iter().map(ToString::to_string).collect()
+/// Holds a target's code to the gates and adds its levels to the table.
+fn probe(sh: &Shell, target: &Target, table: &mut Table) -> Result<(), String> {
+    let listing = build::listing(sh, target, "")?;
+    table.add(target, &listing);
+    none(gates::check(&listing, target.arch).iter().map(ToString::to_string).collect())
 }
 
-/// Compares the table with the one in the documentation, or writes it there.
-fn instructions(sh: &Shell, table: Table, bless: bool) -> Check {
-    const FILE: &str = "simd4/INSTRUCTIONS.md";
-    let name = "asm, instruction table";
-    let skipped = |reason| Check { name: name.to_owned(), outcome: Outcome::Skipped, reason };
-    let rustc = match cmd!(sh, "rustc --version").quiet().read() {
-        Ok(version) => version.split(' ').nth(1).unwrap_or_default().to_owned(),
-        Err(error) => return Check::new(name, Err(error.to_string())),
+/// Fails with the faults, if there are any.
+fn none(faults: Vec<String>) -> Result<(), String> {
+    let more = faults.len().saturating_sub(SHOWN);
+    let mut lines = faults[..faults.len() - more].to_vec();
+    lines.extend((more > 0).then(|| format!("and {more} more")));
+    if faults.is_empty() { Ok(()) } else { Err(lines.join("\n      ")) }
+}
+
+/// The version of rustc.
+fn rustc(sh: &Shell) -> Result<String, String> {
+    let version = cmd!(sh, "rustc --version").quiet().read().map_err(|error| error.to_string())?;
+    Ok(version.split(' ').nth(1).unwrap_or_default().to_owned())
+}
+
+/// Writes the table to the documentation.
+fn write(sh: &Shell, table: &Table) -> Result<(), String> {
+    let missing: Vec<&str> = table.missing().collect();
+    if !missing.is_empty() {
+        return Err(format!("nothing is written without figures of {}", missing.join(", ")));
+    }
+    sh.write_file(FILE, table.to_markdown(&rustc(sh)?)).map_err(|error| error.to_string())
+}
+
+/// Compares the table with the one of the documentation.
+fn compare(sh: &Shell, table: &Table) -> Done {
+    let read = || {
+        let text = sh.read_file(FILE).map_err(|error| error.to_string())?;
+        let (of, documented) = Table::parse(&text).map_err(|error| format!("{FILE}: {error}"))?;
+        Ok((rustc(sh)?, of, documented))
     };
-    if bless {
-        let missing: Vec<&str> = table.missing().collect();
-        let written = match missing.as_slice() {
-            [] => sh.write_file(FILE, table.to_markdown(&rustc)).map_err(|e| e.to_string()),
-            _ => Err(format!("nothing written: there are no figures of {}", missing.join(", "))),
-        };
-        return Check::new(name, written.map(|()| Vec::new()));
+    let (rustc, of, documented) = match read() {
+        Ok(read) => read,
+        Err(error) => return Err(error).into(),
+    };
+    // Another compiler may well do otherwise, and no worse.
+    if rustc != of {
+        return Done::left(format!("{FILE} is of rustc {of}, and this is {rustc}"));
     }
-    let blessed = sh.read_file(FILE).map_err(|error| error.to_string());
-    match blessed.map(|text| Table::parse(&text)) {
-        Err(error) => Check::new(name, Err(error)),
-        Ok(Err(error)) => Check::new(name, Err(format!("{FILE}: {error}"))),
-        Ok(Ok((of, _))) if of != rustc => {
-            skipped(format!("{FILE} is of rustc {of}, and this is {rustc}"))
-        }
-        Ok(Ok((_, blessed))) => {
-            let mut differences = blessed.differences(&table);
-            if !differences.is_empty() {
-                differences.push(format!("{FILE} is out of date: cargo xtask asm --bless"));
-            }
-            Check::new(name, Ok(differences))
-        }
+    let mut differences = documented.differences(table);
+    if !differences.is_empty() {
+        differences.insert(0, format!("{FILE} is out of date: cargo xtask asm --bless"));
     }
-}
-
-/// Runs the command: checks, prints, and says whether nothing failed.
-pub(crate) fn asm(sh: &Shell, bless: bool) -> bool {
-    let mut ok = true;
-    for Check { name, outcome, reason } in check(sh, bless) {
-        let (word, gap) = match outcome {
-            Outcome::Passed => ("passed", ""),
-            Outcome::Failed => ("FAILED", "\n"),
-            Outcome::Skipped => ("skipped", " "),
-        };
-        println!("{name:24} {word}{gap}{reason}");
-        ok &= outcome != Outcome::Failed;
-    }
-    ok
+    none(differences).into()
 }
 
 #[cfg(test)]
@@ -135,10 +113,8 @@ mod tests {
     #[test]
     fn a_closure_that_has_fallen_out_of_its_level_is_caught() {
         let sh = crate::root().expect("there is a repository");
-        if let Err(reason) = build::available(&sh, X86_64.triple) {
-            panic!("{reason}");
-        }
-        let listing = build::listing(&sh, &X86_64, "simd4-probe", "planted").expect("it compiles");
+        setup::standard_library(&sh, X86_64.triple).expect("there is the target");
+        let listing = build::listing(&sh, &X86_64, "planted").expect("it compiles");
         let faults = gates::check(&listing, X86_64.arch);
         let caught = |rule, function: &str, instruction: &str| {
             faults.iter().any(|fault| {

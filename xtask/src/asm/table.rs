@@ -21,8 +21,10 @@ number.
 * Not counted are copies between registers, constants (a loop keeps them in registers) and the
   return. Loads and stores are counted of the operations that are about memory; of a check the
   comparison and the jump, but not the panic.
-* `+` marks a number of which, by loops or branches, not all run or some run several times.
-* `0` is an operation that only gives another name to bits.
+* `+` marks a number of which not all run, or some several times: there are branches or loops.
+* `0` is a constant, or only another name for the same bits.
+* The masks of `avx512` are in general registers here, as functions pass them. Where a comparison
+  has just made them, `and` is `kandw`, and `bitmask` a `kmovw`.
 
 ";
 
@@ -145,11 +147,12 @@ fn levels() -> impl Iterator<Item = &'static str> {
     TARGETS.iter().flat_map(|target| target.levels).map(|level| level.name)
 }
 
-/// Splits `f32x4::floor`.
+/// Splits `f32x4::floor`. `a += b` is what `a + b` is.
 fn section_and_op(name: &str) -> Option<(&str, &str)> {
     let (of, op) = name.split_once("::")?;
     let (section, _) = of.rsplit_once('x')?;
-    (SECTIONS.contains(&section) && !op.contains("::")).then_some((section, op))
+    let shown = SECTIONS.contains(&section) && !op.contains("::") && !op.ends_with("_assign");
+    shown.then_some((section, op))
 }
 
 /// All widths, the level's own first.
