@@ -1,6 +1,6 @@
 //! Assembly out of cargo.
 
-use super::levels::Target;
+use super::targets::Target;
 use super::text::Listing;
 use serde_json::Value;
 use std::path::PathBuf;

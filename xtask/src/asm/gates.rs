@@ -1,7 +1,7 @@
 //! What must not be in the assembly of kernels.
 
 use super::flow::{Flow, call, never_returns};
-use super::levels;
+use super::targets;
 use super::text::{Arch, Function, Instruction, Listing, path};
 use std::fmt;
 
@@ -53,7 +53,7 @@ pub(crate) fn check(listing: &Listing, arch: Arch) -> Vec<Fault> {
     let mut faults = Vec::new();
     for function in &listing.functions {
         let name = path(&function.symbol);
-        let level = levels::of_path(&name);
+        let level = targets::of_path(&name);
         let mut fault = |rule, instruction: &dyn fmt::Display| {
             let (function, instruction) = (name.clone(), instruction.to_string());
             faults.push(Fault { rule, function, level, instruction });

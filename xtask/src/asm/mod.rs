@@ -11,14 +11,14 @@ mod build;
 mod count;
 mod flow;
 mod gates;
-mod levels;
 mod table;
+mod targets;
 mod text;
 
 use crate::report::{Done, Report};
 use crate::setup;
-use levels::{TARGETS, Target};
 use table::Table;
+use targets::{TARGETS, Target};
 use xshell::{Shell, cmd};
 
 /// The file of the documentation that has the table.
@@ -55,6 +55,10 @@ pub(crate) fn check(sh: &Shell, report: &mut Report, bless: bool) {
 fn probe(sh: &Shell, target: &Target, table: &mut Table) -> Result<(), String> {
     let listing = build::listing(sh, target, "")?;
     table.add(target, &listing);
+    let mut levels = target.levels.iter().map(|level| level.name);
+    if let Some(level) = levels.find(|level| table.missing().any(|missing| missing == *level)) {
+        return Err(format!("the probe has no operations of {level}"));
+    }
     none(gates::check(&listing, target.arch).iter().map(ToString::to_string).collect())
 }
 
@@ -107,7 +111,9 @@ fn compare(sh: &Shell, table: &Table) -> Done {
 mod tests {
     use super::*;
     use gates::Rule;
-    use levels::X86_64;
+    use proc_macro2::{TokenStream, TokenTree};
+    use std::collections::HashSet;
+    use targets::X86_64;
 
     /// The plant is what the gates are for: see `simd4/probe/src/planted.rs`.
     #[test]
@@ -131,5 +137,67 @@ mod tests {
             "{faults:#?}"
         );
         assert!(caught(Rule::Call, "planted::fallen", closure), "{faults:#?}");
+    }
+
+    /// What a file says, as tokens.
+    fn tokens(sh: &Shell, file: &str) -> TokenStream {
+        sh.read_file(file).expect("it is there").parse().expect("it is Rust")
+    }
+
+    /// The names behind `fn`, but for those that the documentation hides.
+    fn functions(tokens: TokenStream) -> Vec<String> {
+        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+        let mut hidden = false;
+        let mut names = Vec::new();
+        for pair in tokens.windows(2) {
+            match pair {
+                [TokenTree::Punct(_), TokenTree::Group(attribute)] => {
+                    hidden |= attribute.stream().to_string().replace(' ', "") == "doc(hidden)";
+                }
+                [TokenTree::Ident(word), TokenTree::Ident(name)] if word == "fn" => {
+                    names.extend((!std::mem::take(&mut hidden)).then(|| name.to_string()));
+                }
+                _ => {}
+            }
+        }
+        names
+    }
+
+    /// All words, however deep.
+    fn words(tokens: TokenStream, found: &mut HashSet<String>) {
+        for token in tokens {
+            match token {
+                TokenTree::Group(group) => words(group.stream(), found),
+                TokenTree::Ident(word) => drop(found.insert(word.to_string())),
+                TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+            }
+        }
+    }
+
+    #[test]
+    fn every_operation_of_the_traits_is_probed() {
+        let sh = crate::root().expect("there is a repository");
+        let mut probed = HashSet::new();
+        words(tokens(&sh, "simd4/probe/src/ops.rs"), &mut probed);
+        // A value's token is no operation.
+        probed.insert("token".to_owned());
+        let mut operations = 0;
+        for file in ["mod", "f32", "int", "mask"] {
+            let mut is_trait = false;
+            for token in tokens(&sh, &format!("simd4/src/types/{file}.rs")) {
+                match token {
+                    TokenTree::Ident(word) if word == "trait" => is_trait = true,
+                    TokenTree::Group(body) if is_trait && body.to_string().starts_with('{') => {
+                        is_trait = false;
+                        for name in functions(body.stream()) {
+                            assert!(probed.contains(&name), "{name} has no line in the probe");
+                            operations += 1;
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        assert!(operations > 80, "only {operations} operations were found");
     }
 }

@@ -1,7 +1,7 @@
 //! The instruction table of the documentation: what each operation is made of at each level.
 
 use super::count::Count;
-use super::levels::{Level, TARGETS, Target};
+use super::targets::{Level, TARGETS, Target};
 use super::text::{Listing, path};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write as _;
@@ -11,10 +11,9 @@ const SECTIONS: [&str; 4] = ["f32", "i32", "u32", "mask32"];
 
 /// What the file says before the version of rustc.
 const HEAD: &str = "\
-<!-- Made by `cargo xtask asm --bless` and checked by `cargo xtask asm`. -->
+What each operation is compiled to at each level.
 
-What each operation is compiled to at each level: up to four instructions by name, of more the
-number.
+Up to four instructions are named; of more there is the number.
 
 * Counted is what the operation takes at the width of the level's registers; where only other
   widths have it, at the nearest of them. Operands are in registers, and the result is left in one.
@@ -26,6 +25,11 @@ number.
 * The masks of `avx512` are in general registers here, as functions pass them. Where a comparison
   has just made them, `and` is `kandw`, and `bitmask` a `kmovw`.
 
+";
+
+/// What it says last.
+const FOOT: &str = "
+<!-- Made by `cargo xtask asm --bless` and checked by `cargo xtask asm`. -->
 ";
 
 /// What stands before the version.
@@ -86,6 +90,7 @@ impl Table {
             }
             text.push('\n');
         }
+        text.push_str(FOOT);
         text
     }
 
@@ -173,7 +178,7 @@ fn about_memory(op: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::levels::X86_64;
+    use super::super::targets::X86_64;
     use super::*;
 
     fn listing() -> Listing {
