@@ -164,12 +164,12 @@ fn fuzz(sh: &Shell, options: Options) -> Done {
 }
 
 fn format(sh: &Shell, _: Options) -> Done {
-    let manifests = ["Cargo.toml"].into_iter().chain(NESTED);
+    let mut manifests = ["Cargo.toml"].into_iter().chain(NESTED);
     let check = |manifest| {
         let command = cmd!(sh, "cargo fmt --all --check --manifest-path {manifest}").quiet();
         command.run().map_err(|error| error.to_string())
     };
-    manifests.map(check).collect::<Result<(), _>>().into()
+    manifests.try_for_each(check).into()
 }
 
 fn clippy(sh: &Shell, _: Options) -> Done {
