@@ -551,7 +551,7 @@ impl<L: Xmm> SimdMask for mask32x4<L> {
     }
     #[inline(always)]
     fn splat(s: L, b: bool) -> Self {
-        Self::from_array(s, [b; 4])
+        mask32x4(proven!(_mm_castsi128_ps(_mm_set1_epi32(-i32::from(b)))), s)
     }
     #[inline(always)]
     fn from_array(s: L, a: [bool; 4]) -> Self {

@@ -564,7 +564,7 @@ impl<L: Ymm> SimdMask for mask32x8<L> {
     }
     #[inline(always)]
     fn splat(s: L, b: bool) -> Self {
-        Self::from_array(s, [b; 8])
+        mask32x8(proven!(_mm256_castsi256_ps(_mm256_set1_epi32(-i32::from(b)))), s)
     }
     #[inline(always)]
     fn from_array(s: L, a: [bool; 8]) -> Self {
