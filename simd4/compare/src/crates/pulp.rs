@@ -1,6 +1,8 @@
 //! `pulp` dispatches at run time and has vectors of the native width only; no floor, no
 //! conversions to integers, no moves between lanes of fixed number.
 
+#![allow(clippy::needless_range_loop, reason = "the number goes through several slices")]
+
 use ::pulp::{Arch, Simd, WithSimd};
 
 use super::Kernel;
