@@ -7,7 +7,8 @@ const wasi = new WASI({
   version: "preview1",
   args: [file, ...args],
   env: process.env,
-  preopens: { "/": "/", ".": "." },
+  // Of two that fit, the later one would be taken.
+  preopens: { ".": ".", "/": "/" },
 });
 const module = await WebAssembly.compile(await readFile(file));
 process.exitCode = wasi.start(await WebAssembly.instantiate(module, wasi.getImportObject()));

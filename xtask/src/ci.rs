@@ -1,5 +1,6 @@
 //! `cargo xtask ci`: everything that must hold before a change goes in.
 
+use crate::cross::cargo;
 use crate::matrix::{Build, TARGETS, Target, Tests, Tier};
 use crate::programs::Programs;
 use crate::report::{Done, Report};
@@ -38,6 +39,9 @@ const QUICK: [Check; 4] =
 
 /// What else is checked.
 const THOROUGH: [Check; 3] = [("docs", docs), ("licences", licences), ("fuzz targets", fuzz)];
+
+/// The packages outside the workspace.
+const NESTED: [&str; 1] = ["tests/fuzz/Cargo.toml"];
 
 /// Checks, tests and reports; true if all is well.
 pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
@@ -115,6 +119,13 @@ fn test(
     }
     if target.is_built_apart() && built.as_ref().is_none_or(|(build, _)| *build != target.build) {
         *built = None;
+        if target.build.triple.is_some() {
+            // Code that clippy does not see on the host.
+            report.step(name, "clippy", || {
+                let args = ["--quiet", "--locked", "-p", "simd4", "--", "-D", "warnings"];
+                succeeds(cargo(sh, target, "clippy").args(args))
+            });
+        }
         let build = || Programs::build(sh, target).map(|programs| (target.build, programs));
         report.step(name, "build", || match build() {
             Ok(programs) => {
@@ -160,7 +171,12 @@ fn fuzz(sh: &Shell, options: Options) -> Done {
 }
 
 fn format(sh: &Shell, _: Options) -> Done {
-    succeeds(cmd!(sh, "cargo fmt --all --check"))
+    let mut manifests = ["Cargo.toml"].into_iter().chain(NESTED);
+    let check = |manifest| {
+        let command = cmd!(sh, "cargo fmt --all --check --manifest-path {manifest}").quiet();
+        command.run().map_err(|error| error.to_string())
+    };
+    manifests.try_for_each(check).into()
 }
 
 fn clippy(sh: &Shell, _: Options) -> Done {

@@ -18,6 +18,7 @@ mod tidy;
 
 use ci::Scope;
 use matrix::Target;
+use std::path::Path;
 use std::process::ExitCode;
 use xshell::{Shell, cmd};
 
@@ -147,8 +148,7 @@ fn root() -> Result<Shell, String> {
     let sh = Shell::new().map_err(|error| error.to_string())?;
     // cargo sets it; asked at run time, because a moved checkout keeps its built xtask.
     let here = sh.var_os("CARGO_MANIFEST_DIR").unwrap_or(env!("CARGO_MANIFEST_DIR").into());
-    sh.change_dir(here);
-    sh.change_dir("..");
+    sh.change_dir(Path::new(&here).parent().ok_or("xtask is in no folder")?);
     Ok(sh)
 }
 

@@ -138,6 +138,10 @@ impl Programs {
         let (program, args) = words.split_first().expect("the program itself");
         let mut command = Command::new(program);
         command.args(args).arg("--quiet").current_dir(&test.folder);
+        if let Run::Node = target.run {
+            // There a panic is the end, and what it said would be lost.
+            command.arg("--nocapture");
+        }
         // Where cargo would say so, and where the tests of a program learn how to start it.
         command.env("CARGO_MANIFEST_DIR", &test.folder);
         command.env("RT_RUNNER", runner(sh, target).join(" "));
