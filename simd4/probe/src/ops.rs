@@ -2,7 +2,11 @@
 //!
 //! Operands and results pass by value under the C calling convention, which puts a register type
 //! in a register: what such a function has besides its operation are copies.
-#![allow(improper_ctypes_definitions, reason = "only the assembly is of interest")]
+#![allow(
+    improper_ctypes_definitions,
+    clippy::missing_safety_doc,
+    reason = "only the assembly is of interest"
+)]
 
 /// Lanes in no order that an instruction would have: `1, 4, 7, …`, counted round.
 pub struct Mixed<V>(std::marker::PhantomData<V>);
