@@ -59,7 +59,7 @@ macro_rules! __dispatch_wasm32 {
     };
 }
 
-/// See the other.
+/// The same where there is no such level.
 #[cfg(all(target_arch = "wasm32", not(target_feature = "simd128")))]
 #[doc(hidden)]
 #[macro_export]

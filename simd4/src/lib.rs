@@ -82,6 +82,8 @@
 //! | `neon` | AArch64 | 4 | at run time | AArch64 |
 //! | `simd128` | WebAssembly | 4 | when compiling | `-C target-feature=+simd128` |
 //!
+//! What each operation is compiled to at each level: [`instructions`].
+//!
 //! AVX without AVX2 and FMA falls back to `sse4.1`. 32-bit ARM has no level, since its NEON flushes
 //! subnormals; AltiVec (which the paper that this crate began with had), RVV and SVE have none
 //! because stable Rust does not reach them: there the scalar level runs, as the compiler
@@ -131,6 +133,8 @@ mod arch;
 #[cfg(feature = "std")]
 pub mod check;
 mod dispatch;
+#[doc = include_str!("../INSTRUCTIONS.md")]
+pub mod instructions {}
 mod level;
 pub mod math;
 mod simd;

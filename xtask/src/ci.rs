@@ -4,7 +4,7 @@ use crate::cross::cargo;
 use crate::matrix::{Build, TARGETS, Target, Tests, Tier};
 use crate::programs::Programs;
 use crate::report::{Done, Report};
-use crate::{fuzz, setup, tidy};
+use crate::{asm, fuzz, setup, tidy};
 use xshell::{Cmd, Shell, cmd};
 
 /// The flags of `ci`.
@@ -57,7 +57,10 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     };
     let targets: Vec<_> = TARGETS.iter().filter(|target| options.scope.includes(target)).collect();
 
-    let total = checks.len() + targets.len();
+    // The machine code, of all levels and so of no target in particular.
+    let machine_code = matches!(options.scope, Scope::EveryRun | Scope::All);
+
+    let total = checks.len() + usize::from(machine_code) + targets.len();
     let mut numbers = 1..=total;
     let mut announce = |name: &str| {
         println!("[{}/{total}] {name}", numbers.next().unwrap_or(total));
@@ -66,6 +69,10 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     for (name, check) in checks {
         announce(name);
         report.step(name, "", || check(sh, options));
+    }
+    if machine_code {
+        announce("asm");
+        asm::check(sh, &mut report, false);
     }
     let mut built = None;
     for target in targets {

@@ -4,6 +4,7 @@
 //! subcommand here, in Rust and without dependencies on the workspace that it judges.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to a person in a terminal")]
 
+mod asm;
 mod ci;
 mod coverage;
 mod cross;
@@ -38,6 +39,10 @@ usage: cargo xtask <command>
                     package; SIMD4_LEVEL in the environment caps the level:
                       cargo xtask cross --target aarch64 -p simd4 -- special_values
                       cargo xtask cross --target haswell --run -p rt-cli -- info
+  asm [--bless]     read the machine code of every operation at every level, and of rt: no
+                    intrinsic that is a function, no call in a hot loop, no legacy SSE among
+                    VEX instructions, and the instructions that the documentation states
+       --bless      state in the documentation what is compiled now
   fuzz obj|mtl|nff [--seconds N]
                     random input for a reader, guided by coverage, for a minute or so long
   coverage          which lines the tests of this machine reach
@@ -52,6 +57,11 @@ enum Command {
     Ci(ci::Options),
     /// `cross`
     Cross(cross::Options),
+    /// `asm`
+    Asm {
+        /// Whether the instruction table is to be written.
+        bless: bool,
+    },
     /// `fuzz`
     Fuzz(fuzz::Options),
     /// `coverage`
@@ -75,6 +85,7 @@ impl Command {
             "ci" => Command::Ci(ci::Options::default()),
             "cross" => return cross::Options::parse(rest).map(Command::Cross),
             "fuzz" => return fuzz::Options::parse(rest).map(Command::Fuzz),
+            "asm" => Command::Asm { bless: false },
             "coverage" => Command::Coverage,
             "bless" => Command::Bless,
             _ => return Err(format!("there is no command {name:?}")),
@@ -92,6 +103,7 @@ impl Command {
                         _ => Scope::Only(Target::named(rest.next().unwrap_or(&""))?.name),
                     };
                 }
+                (Command::Asm { bless }, "--bless") => *bless = true,
                 _ => return Err(format!("{name} knows no argument {arg:?} here")),
             }
         }
@@ -112,6 +124,7 @@ fn main() -> ExitCode {
     let done = root().and_then(|sh| match command {
         Command::Ci(options) => Ok(ci::ci(&sh, options)),
         Command::Cross(options) => cross::cross(&sh, &options).map(|()| true),
+        Command::Asm { bless } => Ok(asm::asm(&sh, bless)),
         Command::Fuzz(options) => fuzz::fuzz(&sh, &options).map(|()| true),
         Command::Coverage => coverage::coverage(&sh).map(|()| true),
         Command::Bless => bless(&sh).map(|()| true),
@@ -157,6 +170,8 @@ mod tests {
         assert_eq!(Command::parse(&["ci", "--fast", "--setup"]), ci(true, Scope::Fast));
         assert_eq!(Command::parse(&["ci", "--setup", "--all"]), ci(true, Scope::All));
         assert_eq!(Command::parse(&["ci", "--target", "s390x"]), ci(false, Scope::Only("s390x")));
+        assert_eq!(Command::parse(&["asm"]), Ok(Command::Asm { bless: false }));
+        assert_eq!(Command::parse(&["asm", "--bless"]), Ok(Command::Asm { bless: true }));
         assert_eq!(Command::parse(&["bless"]), Ok(Command::Bless));
     }
 

@@ -89,7 +89,7 @@ pub(crate) fn program(
 }
 
 /// Makes sure that the toolchain has a target's standard library.
-fn standard_library(sh: &Shell, triple: &str) -> Result<(), String> {
+pub(crate) fn standard_library(sh: &Shell, triple: &str) -> Result<(), String> {
     // Asked of rustc rather than rustup: it costs no network, and a toolchain that did not come
     // from rustup may have the target too.
     let libs = cmd!(sh, "rustc --print target-libdir --target {triple}").quiet().read();

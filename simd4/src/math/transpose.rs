@@ -2,7 +2,7 @@
 
 use crate::Lanes;
 
-/// The columns of four rows of four lanes, by eight interleavings.
+/// The columns of four rows of four lanes, by eight moves of two registers each.
 ///
 /// ```
 /// use simd4::{f32x4, math, prelude::*};
@@ -14,7 +14,7 @@ use crate::Lanes;
 #[inline(always)]
 pub fn transpose<V: Lanes>([a, b, c, d]: [V; 4]) -> [V; 4] {
     const { assert!(V::LANES == 4, "four rows are transposed of four lanes each") };
-    let (ac, bd) = (a.zip(c), b.zip(d));
-    let (low, high) = (ac.0.zip(bd.0), ac.1.zip(bd.1));
+    let (ab, cd) = (a.zip(b), c.zip(d));
+    let (low, high) = (ab.0.zip_halves(cd.0), ab.1.zip_halves(cd.1));
     [low.0, low.1, high.0, high.1]
 }

@@ -95,17 +95,17 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
     /// [`spec::min_num`](crate::spec::min_num): IEEE 754 `minimumNumber`.
     #[inline(always)]
     fn min_num(self, other: Self) -> Self {
-        let equal = Self::from_bits(self.to_bits() | other.to_bits());
         // A NaN in `other` loses here; one in `self` loses in `min`.
-        let least = Self::select(other.ne(other), self, self.min(other));
-        Self::select(self.eq(other), equal, least)
+        let least = Self::select(other.eq(other), self.min(other), self);
+        // Of equals both signs: only those of zeros differ.
+        Self::from_bits(least.to_bits() | self.to_bits().masked(self.eq(other)))
     }
     /// [`spec::max_num`](crate::spec::max_num): IEEE 754 `maximumNumber`.
     #[inline(always)]
     fn max_num(self, other: Self) -> Self {
-        let equal = Self::from_bits(self.to_bits() & other.to_bits());
-        let greatest = Self::select(other.ne(other), self, self.max(other));
-        Self::select(self.eq(other), equal, greatest)
+        let greatest = Self::select(other.eq(other), self.max(other), self);
+        let differ = Self::U32::splat(self.token(), u32::MAX).masked(self.ne(other));
+        Self::from_bits(greatest.to_bits() & (self.to_bits() | differ))
     }
 
     // Rounding

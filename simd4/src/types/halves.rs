@@ -119,6 +119,14 @@ where
         Halves(V::select(m.0, a.0, b.0), V::select(m.1, a.1, b.1))
     }
     #[inline(always)]
+    fn merge(m: Self::Mask, a: Self, b: Self) -> Self {
+        Halves(V::merge(m.0, a.0, b.0), V::merge(m.1, a.1, b.1))
+    }
+    #[inline(always)]
+    fn masked(self, m: Self::Mask) -> Self {
+        Halves(self.0.masked(m.0), self.1.masked(m.1))
+    }
+    #[inline(always)]
     fn reverse(self) -> Self {
         Halves(self.1.reverse(), self.0.reverse())
     }
@@ -126,6 +134,10 @@ where
     fn zip(self, other: Self) -> (Self, Self) {
         let (low, high) = (self.0.zip(other.0), self.1.zip(other.1));
         (Halves(low.0, low.1), Halves(high.0, high.1))
+    }
+    #[inline(always)]
+    fn zip_halves(self, other: Self) -> (Self, Self) {
+        (Halves(self.0, other.0), Halves(self.1, other.1))
     }
     #[inline(always)]
     fn unzip(self, other: Self) -> (Self, Self) {

@@ -131,9 +131,7 @@ pub trait Lanes:
         if from.len() >= Self::LANES {
             return Self::load(s, from);
         }
-        let mut a = Self::splat(s, fill).to_array();
-        a.as_mut()[..from.len()].copy_from_slice(from);
-        Self::from_array(s, a)
+        Self::from_array(s, prefix(from, fill))
     }
 
     /// Writes as many lanes as a slice of any length takes.
@@ -143,7 +141,15 @@ pub trait Lanes:
         if n >= Self::LANES {
             return self.store(to);
         }
-        to.copy_from_slice(&self.to_array().as_ref()[..n]);
+        let a = self.to_array();
+        // Copies of fixed lengths, which need no call.
+        let mut at = 0;
+        for length in [8, 4, 2, 1] {
+            if n & length != 0 && Self::LANES > length {
+                to[at..at + length].copy_from_slice(&a.as_ref()[at..at + length]);
+                at += length;
+            }
+        }
     }
 
     /// `mask ? from[lane] : fill`: only the elements of the mask's lanes are read.
@@ -152,6 +158,9 @@ pub trait Lanes:
     /// If the mask has a lane that the slice lacks.
     #[inline(always)]
     fn load_masked(s: Self::Simd, from: &[Self::Elem], mask: Self::Mask, fill: Self::Elem) -> Self {
+        if from.len() >= Self::LANES {
+            return Self::select(mask, Self::load(s, from), Self::splat(s, fill));
+        }
         let bits = mask.bitmask();
         Self::from_array(
             s,
@@ -168,6 +177,9 @@ pub trait Lanes:
     /// If the mask has a lane that the slice lacks.
     #[inline(always)]
     fn store_masked(self, to: &mut [Self::Elem], mask: Self::Mask) {
+        if to.len() >= Self::LANES {
+            return Self::merge(mask, self, Self::load(self.token(), to)).store(to);
+        }
         let (a, bits) = (self.to_array(), mask.bitmask());
         let mut i = 0;
         while i < Self::LANES {
@@ -205,15 +217,32 @@ pub trait Lanes:
     #[inline(always)]
     fn compress_store(self, mask: Self::Mask, to: &mut [Self::Elem]) -> usize {
         let (a, bits) = (self.to_array(), mask.bitmask());
+        let count = bits.count_ones() as usize;
+        if to.len() <= Self::LANES {
+            let to = &mut to[..count];
+            let (mut i, mut n) = (0, 0);
+            while n < count {
+                if bits >> i & 1 == 1 {
+                    to[n] = a.as_ref()[i];
+                    n += 1;
+                }
+                i += 1;
+            }
+            return count;
+        }
+        // Without branches: every lane goes to where the mask's next one goes. What the last of
+        // them leaves behind the end is put right.
+        let to = &mut to[..=Self::LANES];
+        let behind = to[count];
         let (mut i, mut n) = (0, 0);
         while i < Self::LANES {
-            if bits >> i & 1 == 1 {
-                to[n] = a.as_ref()[i];
-                n += 1;
-            }
+            // It is not above i: this spares the check of bounds.
+            to[n % Self::LANES] = a.as_ref()[i];
+            n += (bits >> i & 1) as usize;
             i += 1;
         }
-        n
+        to[count] = behind;
+        count
     }
 
     // Least and greatest, comparisons
@@ -250,6 +279,20 @@ pub trait Lanes:
 
     /// `mask ? a : b`, lane by lane.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    /// The same, for storing where `b` was loaded.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn merge(mask: Self::Mask, a: Self, b: Self) -> Self {
+        Self::select(mask, a, b)
+    }
+
+    /// `mask ? self : 0`, lane by lane.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn masked(self, mask: Self::Mask) -> Self {
+        Self::select(mask, self, Self::splat(self.token(), Self::Elem::default()))
+    }
 
     // Moves
 
@@ -307,6 +350,27 @@ pub trait Lanes:
         )
     }
 
+    /// The lower halves of both, `self`'s first, and the higher halves of both.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn zip_halves(self, other: Self) -> (Self, Self) {
+        let half = Self::LANES / 2;
+        (
+            pick(
+                self,
+                other,
+                #[inline(always)]
+                |i| i + i / half * half,
+            ),
+            pick(
+                self,
+                other,
+                #[inline(always)]
+                |i| i + half + i / half * half,
+            ),
+        )
+    }
+
     /// The even lanes of `self` and then those of `other`; and the odd ones. The inverse of
     /// [`Lanes::zip`].
     #[inline(always)]
@@ -332,6 +396,13 @@ pub trait Lanes:
     /// One lane of all. What the reductions below are made of.
     #[doc(hidden)]
     fn reduce<F: reduce::Fold>(self) -> Self::Elem;
+
+    /// One lane of all, in every lane.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn fold_all<F: reduce::Fold>(self) -> Self {
+        Self::splat(self.token(), self.reduce::<F>())
+    }
 
     /// The sum of the lanes, added in the order of [`spec::reduce`](crate::spec::reduce).
     #[inline(always)]
@@ -365,8 +436,8 @@ pub trait Lanes:
     fn argmin(self, mask: Self::Mask) -> Option<(usize, Self::Elem)> {
         let allowed = mask & self.eq(self);
         let greatest = Self::splat(self.token(), Self::Elem::GREATEST);
-        let least = Self::select(allowed, self, greatest).reduce_min();
-        let lane = (allowed & self.eq(Self::splat(self.token(), least))).first()?;
+        let least = Self::select(allowed, self, greatest).fold_all::<reduce::Min>();
+        let lane = (allowed & self.eq(least)).first()?;
         Some((lane, self.lane(lane)))
     }
 
@@ -376,10 +447,32 @@ pub trait Lanes:
     fn argmax(self, mask: Self::Mask) -> Option<(usize, Self::Elem)> {
         let allowed = mask & self.eq(self);
         let least = Self::splat(self.token(), Self::Elem::LEAST);
-        let greatest = Self::select(allowed, self, least).reduce_max();
-        let lane = (allowed & self.eq(Self::splat(self.token(), greatest))).first()?;
+        let greatest = Self::select(allowed, self, least).fold_all::<reduce::Max>();
+        let lane = (allowed & self.eq(greatest)).first()?;
         Some((lane, self.lane(lane)))
     }
+}
+
+/// The elements of a slice that has fewer than there are lanes, and then `fill`.
+#[inline(always)]
+fn prefix<T: Element, A: LaneArray<T>>(from: &[T], fill: T) -> A {
+    // The lanes of one register by number, so that they need not go through memory.
+    let [a, b, c] = match *from {
+        [a, b, c, ..] => [a, b, c],
+        [a, b] => [a, b, fill],
+        [a] => [a, fill, fill],
+        [] => [fill; 3],
+    };
+    A::from_fn(
+        #[inline(always)]
+        |i| match i {
+            0 => a,
+            1 => b,
+            2 => c,
+            _ if i < from.len() => from[i],
+            _ => fill,
+        },
+    )
 }
 
 /// Lanes of two vectors in a new order: indices count through `a` and then through `b`.

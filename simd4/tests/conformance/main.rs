@@ -99,6 +99,12 @@ fn one_operand<S: Simd>(s: S, step: u32) {
     at_every_width!(s, sweeps::one_operand, f32x4 f32x8 f32x16, step);
 }
 
+/// Wider types than a register are several registers: what holds in one holds in them.
+#[inline(always)]
+fn all_inputs<S: Simd>(s: S) {
+    sweeps::one_operand::<S::f32s>(s, 1);
+}
+
 /// The checks, each compiled once for each level.
 mod on {
     use super::*;
@@ -120,6 +126,9 @@ mod on {
     }
     pub(super) fn estimates(level: Level) {
         dispatch!(level, s => super::estimates(s));
+    }
+    pub(super) fn all_inputs(level: Level) {
+        dispatch!(level, s => super::all_inputs(s));
     }
     pub(super) fn one_operand(level: Level, step: u32) {
         dispatch!(level, s => super::one_operand(s, step));
@@ -186,7 +195,7 @@ macro_rules! stamp {
             #[ignore = "all 2^32 inputs: minutes"]
             fn all_inputs() {
                 let Some(level) = level($name) else { return };
-                on::one_operand(level, 1);
+                on::all_inputs(level);
             }
 
             #[test]

@@ -27,8 +27,9 @@ enum Others {
 
 /// The arrows; there are no others.
 #[rustfmt::skip]
-const ARROWS: [Arrows; 7] = [
+const ARROWS: [Arrows; 8] = [
     Arrows { name: "simd4",      uses: &[],                                              others: Only(&[]) },
+    Arrows { name: "simd4-probe", uses: &["simd4"],                                      others: Only(&[]) },
     Arrows { name: "rt-kernels", uses: &["simd4"],                                       others: But(&["rayon", "rand", "clap"]) },
     Arrows { name: "rt-scene",   uses: &[],                                              others: But(&["rayon", "clap"]) },
     Arrows { name: "rt-render",  uses: &["simd4", "rt-kernels", "rt-scene"],             others: But(&["clap", "indicatif"]) },

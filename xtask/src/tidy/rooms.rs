@@ -29,6 +29,7 @@ const RULES: [Rule; 2] = [
             "simd4/tests/",
             "simd4/benches/",
             "simd4/compare/",
+            "simd4/probe/",
             "xtask/",
         ],
     },

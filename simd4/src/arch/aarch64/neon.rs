@@ -188,9 +188,9 @@ impl SimdF32 for f32x4 {
     fn trunc(self) -> Self {
         f32x4(proven!(vrndq_f32(self.0)), self.1)
     }
-    // One step from an estimate of 2^-8.5, which gives 2^-16.9 here and 2^-15.9 for the root; two
-    // give 2^-22.9. As `rcp_fast` the division stays: a chain of two steps is longer, and the
-    // root's alternative, which divides too, is not.
+    // The raw estimates err by 2^-8.5. A step makes that 2^-16.9, and 2^-15.9 for the root; a
+    // second one 2^-22.9. `rcp_fast` stays the division: one instruction, and a shorter chain than
+    // seven. The root takes the two steps, which keep the divider free; it would need it twice.
     #[inline(always)]
     fn rcp_est(self) -> Self {
         proven!({
