@@ -127,7 +127,7 @@ fn rsqrt_normalise<S: Simd>(s: S, io: &mut Io) {
 fn floor_to_int<S: Simd>(s: S, io: &mut Io) {
     for k in 0..N / S::LANES {
         let at = k * S::LANES;
-        let cell = S::f32s::load(s, &io.f[0].0[at..]).floor().to_i32_fast();
+        let cell = S::f32s::load(s, &io.f[0].0[at..]).floor_to_i32_fast();
         cell.to_u32().store(&mut io.bits.0[at..]);
     }
 }

@@ -211,6 +211,11 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
     fn to_i32_fast(self) -> Self::I32 {
         self.to_i32()
     }
+    /// `floor().to_i32_fast()` in fewer instructions where there are such.
+    #[inline(always)]
+    fn floor_to_i32_fast(self) -> Self::I32 {
+        self.floor().to_i32_fast()
+    }
     /// As [`SimdF32::to_u32`], for values that have a `u32`; of others the result may differ
     /// between levels.
     #[inline(always)]

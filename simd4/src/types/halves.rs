@@ -107,6 +107,10 @@ where
         self.0.store(low);
         self.1.store(high);
     }
+    #[inline(always)]
+    fn load_prefix(s: Self::Simd, from: &[Self::Elem], fill: Self::Elem) -> Self {
+        super::load_prefix(s, from, fill)
+    }
 
     halved! {
         min(b);
@@ -233,6 +237,10 @@ where
     #[inline(always)]
     fn to_u32(self) -> Self::U32 {
         Halves(self.0.to_u32(), self.1.to_u32())
+    }
+    #[inline(always)]
+    fn floor_to_i32_fast(self) -> Self::I32 {
+        Halves(self.0.floor_to_i32_fast(), self.1.floor_to_i32_fast())
     }
     #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {

@@ -131,7 +131,21 @@ pub trait Lanes:
         if from.len() >= Self::LANES {
             return Self::load(s, from);
         }
-        Self::from_array(s, prefix(from, fill))
+        let mut a = Self::splat(s, fill).to_array();
+        let n = from.len();
+        if Self::LANES > 4 && n > 3 {
+            copy_prefix(from, a.as_mut());
+        } else {
+            // So that the lanes of one register need not go through memory.
+            let last = if n & 1 == 1 { from[n - 1] } else { fill };
+            let lanes = a.as_mut();
+            if n & 2 == 2 {
+                (lanes[0], lanes[1], lanes[2]) = (from[0], from[1], last);
+            } else {
+                lanes[0] = last;
+            }
+        }
+        Self::from_array(s, a)
     }
 
     /// Writes as many lanes as a slice of any length takes.
@@ -142,13 +156,15 @@ pub trait Lanes:
             return self.store(to);
         }
         let a = self.to_array();
-        // Copies of fixed lengths, which need no call.
-        let mut at = 0;
-        for length in [8, 4, 2, 1] {
-            if n & length != 0 && Self::LANES > length {
-                to[at..at + length].copy_from_slice(&a.as_ref()[at..at + length]);
-                at += length;
-            }
+        let lanes = a.as_ref();
+        if Self::LANES > 4 && n > 3 {
+            return copy_prefix(&lanes[..n], to);
+        }
+        if n & 2 == 2 {
+            (to[0], to[1]) = (lanes[0], lanes[1]);
+        }
+        if n & 1 == 1 {
+            to[n - 1] = lanes[n - 1];
         }
     }
 
@@ -199,12 +215,11 @@ pub trait Lanes:
         from: &[Self::Elem],
         index: I,
     ) -> Self {
-        let index_of = index.to_array();
         Self::from_array(
             index.token(),
             LaneArray::from_fn(
                 #[inline(always)]
-                |i| from[index_of.as_ref()[i] as usize],
+                |i| from[index.index(i)],
             ),
         )
     }
@@ -453,26 +468,17 @@ pub trait Lanes:
     }
 }
 
-/// The elements of a slice that has fewer than there are lanes, and then `fill`.
+/// Copies fewer elements than sixteen to the start of a slice: by fixed lengths, which need no
+/// call.
 #[inline(always)]
-fn prefix<T: Element, A: LaneArray<T>>(from: &[T], fill: T) -> A {
-    // The lanes of one register by number, so that they need not go through memory.
-    let [a, b, c] = match *from {
-        [a, b, c, ..] => [a, b, c],
-        [a, b] => [a, b, fill],
-        [a] => [a, fill, fill],
-        [] => [fill; 3],
-    };
-    A::from_fn(
-        #[inline(always)]
-        |i| match i {
-            0 => a,
-            1 => b,
-            2 => c,
-            _ if i < from.len() => from[i],
-            _ => fill,
-        },
-    )
+fn copy_prefix<T: Copy>(from: &[T], to: &mut [T]) {
+    let mut at = 0;
+    for length in [8, 4, 2, 1] {
+        if from.len() & length != 0 {
+            to[at..at + length].copy_from_slice(&from[at..at + length]);
+            at += length;
+        }
+    }
 }
 
 /// Lanes of two vectors in a new order: indices count through `a` and then through `b`.
@@ -487,6 +493,16 @@ fn pick<V: Lanes>(a: V, b: V, index: impl Fn(usize) -> usize) -> V {
         },
     );
     V::from_array(a.token(), lanes)
+}
+
+/// [`Lanes::load_prefix`] by halves: a register that is put together in memory would be read
+/// before it is all written.
+#[inline(always)]
+pub(crate) fn load_prefix<V: Wide>(s: V::Simd, from: &[V::Elem], fill: V::Elem) -> V {
+    match from.split_at_checked(V::LANES / 2) {
+        Some((low, high)) => V::concat(V::Half::load(s, low), V::Half::load_prefix(s, high, fill)),
+        None => V::concat(V::Half::load_prefix(s, from, fill), V::Half::splat(s, fill)),
+    }
 }
 
 /// A type of twice the lanes of another.

@@ -151,11 +151,13 @@ pub(crate) fn to_ints<V: SimdF32>(s: V::Simd, floats: &[f32]) {
     in_lanes::<V, 1>(s, floats.iter().map(|&x| [x]), |[x], lanes| {
         let (i32s, u32s) = (x.to_i32().to_array(), x.to_u32().to_array());
         let (fast_i32s, fast_u32s) = (x.to_i32_fast().to_array(), x.to_u32_fast().to_array());
+        let floors = x.floor_to_i32_fast().to_array();
         for (i, &[x]) in lanes.iter().enumerate() {
             assert_eq!(i32s.as_ref()[i], x as i32, "{x:e} as i32");
             assert_eq!(u32s.as_ref()[i], x as u32, "{x:e} as u32");
             if (-2147483648.0..2147483648.0).contains(&x) {
                 assert_eq!(fast_i32s.as_ref()[i], x as i32, "{x:e} as i32, fast");
+                assert_eq!(floors.as_ref()[i], spec::floor(x) as i32, "floor of {x:e}, fast");
             }
             if x > -1.0 && x < 4294967296.0 {
                 assert_eq!(fast_u32s.as_ref()[i], x as u32, "{x:e} as u32, fast");

@@ -109,6 +109,15 @@ impl Xmm for Sse2 {
         })
     }
     #[inline(always)]
+    fn floor_to_i32_fast(self, x: xmm::f32x4<Self>) -> xmm::i32x4<Self> {
+        proven!({
+            // Toward zero, and one less (all ones) where that is above.
+            let integer = _mm_cvttps_epi32(x.0);
+            let above = _mm_castps_si128(_mm_cmplt_ps(x.0, _mm_cvtepi32_ps(integer)));
+            xmm::i32x4(_mm_add_epi32(integer, above), self)
+        })
+    }
+    #[inline(always)]
     fn u32_to_f32(self, u: xmm::u32x4<Self>) -> xmm::f32x4<Self> {
         soft::from_u32(u)
     }

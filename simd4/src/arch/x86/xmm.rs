@@ -62,6 +62,10 @@ pub trait Xmm: Simd {
     fn trunc(self, x: f32x4<Self>) -> f32x4<Self> {
         f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC }>(x.0)), self)
     }
+    #[inline(always)]
+    fn floor_to_i32_fast(self, x: f32x4<Self>) -> i32x4<Self> {
+        x.floor().to_i32_fast()
+    }
     /// As in `soft`, the halves put beside the high words of the floats.
     #[inline(always)]
     fn u32_to_f32(self, u: u32x4<Self>) -> f32x4<Self> {
@@ -335,6 +339,10 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         f32x4(proven!(_mm_cvtepi32_ps(i.0)), i.1)
     }
     #[inline(always)]
+    fn floor_to_i32_fast(self) -> Self::I32 {
+        self.1.floor_to_i32_fast(self)
+    }
+    #[inline(always)]
     fn from_u32(u: Self::U32) -> Self {
         u.1.u32_to_f32(u)
     }
@@ -516,7 +524,18 @@ impl<L: Xmm> SimdI32 for i32x4<L> {
     }
 }
 
-impl<L: Xmm> SimdU32 for u32x4<L> {}
+impl<L: Xmm> SimdU32 for u32x4<L> {
+    /// Two lanes at a time come out of the register.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn index(self, lane: usize) -> usize {
+        let pair = proven!(match lane / 2 {
+            0 => _mm_cvtsi128_si64(self.0),
+            _ => _mm_cvtsi128_si64(_mm_unpackhi_epi64(self.0, self.0)),
+        });
+        (pair as u64 >> (32 * (lane % 2))) as u32 as usize
+    }
+}
 
 // mask
 

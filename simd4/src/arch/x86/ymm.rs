@@ -10,7 +10,7 @@ use super::super::proven;
 use super::xmm::{self, Xmm};
 use crate::simd::sealed::Sealed;
 use crate::types::reduce::Fold;
-use crate::types::{conversions, operators, soft, unary_operator};
+use crate::types::{self, conversions, operators, soft, unary_operator};
 use crate::{Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide};
 
 /// What differs between the levels of 256-bit registers; their token proves AVX2 and FMA. As
@@ -122,6 +122,10 @@ impl<L: Ymm> Lanes for f32x8<L> {
             let lane = _mm256_castsi128_si256(_mm_cvtsi32_si128(lane as i32));
             _mm256_cvtss_f32(_mm256_permutevar8x32_ps(self.0, lane))
         })
+    }
+    #[inline(always)]
+    fn load_prefix(s: L, from: &[f32], fill: f32) -> Self {
+        types::load_prefix(s, from, fill)
     }
     #[inline(always)]
     fn min(self, b: Self) -> Self {
@@ -376,6 +380,10 @@ macro_rules! integers {
                     let lane = _mm256_castsi128_si256(_mm_cvtsi32_si128(lane as i32));
                     _mm256_cvtsi256_si32(_mm256_permutevar8x32_epi32(self.0, lane)) as $elem
                 })
+            }
+            #[inline(always)]
+            fn load_prefix(s: L, from: &[$elem], fill: $elem) -> Self {
+                types::load_prefix(s, from, fill)
             }
             #[inline(always)]
             fn min(self, b: Self) -> Self {
