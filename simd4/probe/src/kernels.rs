@@ -152,7 +152,7 @@ fn normalize<V: SimdF32>(s: V::Simd, x: &mut [f32], y: &mut [f32], z: &mut [f32]
 #[inline(always)]
 fn floor_to_int<V: SimdF32>(s: V::Simd, xs: &[f32], out: &mut [i32]) {
     for (x, out) in xs.chunks_exact(V::LANES).zip(out.chunks_exact_mut(V::LANES)) {
-        V::load(s, x).floor().to_i32_fast().store(out);
+        V::load(s, x).floor_to_i32_fast().store(out);
     }
 }
 
