@@ -121,6 +121,7 @@ macro_rules! floats {
 
             round_ties_even(a: V) -> V = a.round_ties_even();
             floor(a: V) -> V = a.floor();
+            floor_to_i32_fast(a: V) -> I = a.floor_to_i32_fast();
             ceil(a: V) -> V = a.ceil();
             trunc(a: V) -> V = a.trunc();
 

@@ -140,10 +140,6 @@ where
         (Halves(low.0, low.1), Halves(high.0, high.1))
     }
     #[inline(always)]
-    fn zip_halves(self, other: Self) -> (Self, Self) {
-        (Halves(self.0, other.0), Halves(self.1, other.1))
-    }
-    #[inline(always)]
     fn unzip(self, other: Self) -> (Self, Self) {
         let (a, b) = (self.0.unzip(self.1), other.0.unzip(other.1));
         (Halves(a.0, b.0), Halves(a.1, b.1))

@@ -365,27 +365,6 @@ pub trait Lanes:
         )
     }
 
-    /// The lower halves of both, `self`'s first, and the higher halves of both.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn zip_halves(self, other: Self) -> (Self, Self) {
-        let half = Self::LANES / 2;
-        (
-            pick(
-                self,
-                other,
-                #[inline(always)]
-                |i| i + i / half * half,
-            ),
-            pick(
-                self,
-                other,
-                #[inline(always)]
-                |i| i + half + i / half * half,
-            ),
-        )
-    }
-
     /// The even lanes of `self` and then those of `other`; and the odd ones. The inverse of
     /// [`Lanes::zip`].
     #[inline(always)]

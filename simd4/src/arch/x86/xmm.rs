@@ -240,13 +240,6 @@ impl<L: Xmm> Lanes for f32x4<L> {
         ))
     }
     #[inline(always)]
-    fn zip_halves(self, b: Self) -> (Self, Self) {
-        proven!((
-            f32x4(_mm_movelh_ps(self.0, b.0), self.1),
-            f32x4(_mm_movehl_ps(b.0, self.0), self.1),
-        ))
-    }
-    #[inline(always)]
     fn unzip(self, b: Self) -> (Self, Self) {
         proven!((
             f32x4(_mm_shuffle_ps::<0b_10_00_10_00>(self.0, b.0), self.1),
@@ -438,13 +431,6 @@ macro_rules! integers {
                 proven!((
                     $name(_mm_unpacklo_epi32(self.0, b.0), self.1),
                     $name(_mm_unpackhi_epi32(self.0, b.0), self.1),
-                ))
-            }
-            #[inline(always)]
-            fn zip_halves(self, b: Self) -> (Self, Self) {
-                proven!((
-                    $name(_mm_unpacklo_epi64(self.0, b.0), self.1),
-                    $name(_mm_unpackhi_epi64(self.0, b.0), self.1),
                 ))
             }
             #[inline(always)]

@@ -175,17 +175,13 @@ impl<L: Ymm> Lanes for f32x8<L> {
     #[inline(always)]
     fn zip(self, b: Self) -> (Self, Self) {
         proven!({
-            let low = f32x8(_mm256_unpacklo_ps(self.0, b.0), self.1);
-            let high = f32x8(_mm256_unpackhi_ps(self.0, b.0), self.1);
-            low.zip_halves(high)
+            let low = _mm256_unpacklo_ps(self.0, b.0);
+            let high = _mm256_unpackhi_ps(self.0, b.0);
+            (
+                f32x8(_mm256_permute2f128_ps::<0x20>(low, high), self.1),
+                f32x8(_mm256_permute2f128_ps::<0x31>(low, high), self.1),
+            )
         })
-    }
-    #[inline(always)]
-    fn zip_halves(self, b: Self) -> (Self, Self) {
-        proven!((
-            f32x8(_mm256_permute2f128_ps::<0x20>(self.0, b.0), self.1),
-            f32x8(_mm256_permute2f128_ps::<0x31>(self.0, b.0), self.1),
-        ))
     }
     #[inline(always)]
     fn unzip(self, b: Self) -> (Self, Self) {
@@ -434,17 +430,13 @@ macro_rules! integers {
             #[inline(always)]
             fn zip(self, b: Self) -> (Self, Self) {
                 proven!({
-                    let low = $name(_mm256_unpacklo_epi32(self.0, b.0), self.1);
-                    let high = $name(_mm256_unpackhi_epi32(self.0, b.0), self.1);
-                    low.zip_halves(high)
+                    let low = _mm256_unpacklo_epi32(self.0, b.0);
+                    let high = _mm256_unpackhi_epi32(self.0, b.0);
+                    (
+                        $name(_mm256_permute2x128_si256::<0x20>(low, high), self.1),
+                        $name(_mm256_permute2x128_si256::<0x31>(low, high), self.1),
+                    )
                 })
-            }
-            #[inline(always)]
-            fn zip_halves(self, b: Self) -> (Self, Self) {
-                proven!((
-                    $name(_mm256_permute2x128_si256::<0x20>(self.0, b.0), self.1),
-                    $name(_mm256_permute2x128_si256::<0x31>(self.0, b.0), self.1),
-                ))
             }
             #[inline(always)]
             fn unzip(self, b: Self) -> (Self, Self) {
