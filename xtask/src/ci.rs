@@ -22,6 +22,8 @@ pub(crate) enum Scope {
     /// What no change goes in without.
     #[default]
     EveryRun,
+    /// Without compiling anything.
+    Tidy,
     /// The inner loop.
     Fast,
     /// Also what is tested on demand.
@@ -33,15 +35,22 @@ pub(crate) enum Scope {
 /// A check of the source: its name, and what it does.
 type Check = (&'static str, fn(&Shell, Options) -> Done);
 
-/// What the inner loop checks beside the tests.
-const QUICK: [Check; 4] =
-    [("format", format), ("rooms", rooms), ("arrows", arrows), ("clippy", clippy)];
-
-/// What else is checked.
-const THOROUGH: [Check; 3] = [("docs", docs), ("licences", licences), ("fuzz targets", fuzz)];
+/// What is checked, in this order: the first [`TIDY`] take seconds, the first [`QUICK`] are for the
+/// inner loop.
+const CHECKS: [Check; 7] = [
+    ("format", format),
+    ("rooms", rooms),
+    ("arrows", arrows),
+    ("clippy", clippy),
+    ("docs", docs),
+    ("licences", licences),
+    ("fuzz targets", fuzz),
+];
+const TIDY: usize = 3;
+const QUICK: usize = 4;
 
 /// The packages outside the workspace.
-const NESTED: [&str; 1] = ["tests/fuzz/Cargo.toml"];
+const NESTED: [&str; 2] = ["simd4/compare/Cargo.toml", "tests/fuzz/Cargo.toml"];
 
 /// Checks, tests and reports; true if all is well.
 pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
@@ -50,10 +59,11 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     if options.setup {
         setup::components(sh);
     }
-    let checks: Vec<Check> = match options.scope {
-        Scope::EveryRun | Scope::All => QUICK.into_iter().chain(THOROUGH).collect(),
-        Scope::Fast => QUICK.to_vec(),
-        Scope::Only(_) => vec![],
+    let checks = match options.scope {
+        Scope::EveryRun | Scope::All => &CHECKS[..],
+        Scope::Fast => &CHECKS[..QUICK],
+        Scope::Tidy => &CHECKS[..TIDY],
+        Scope::Only(_) => &[],
     };
     let targets: Vec<_> = TARGETS.iter().filter(|target| options.scope.includes(target)).collect();
 
@@ -94,6 +104,7 @@ impl Scope {
             Scope::EveryRun => target.tier == Tier::EveryRun,
             Scope::Fast => target.best == Tests::Everything,
             Scope::All => true,
+            Scope::Tidy => false,
             Scope::Only(name) => target.name == name,
         }
     }

@@ -43,6 +43,8 @@ usage: cargo xtask <command>
                     intrinsic that is a function, no call in a hot loop, no legacy SSE among
                     VEX instructions, and the instructions that the documentation states
        --bless      state in the documentation what is compiled now
+  tidy              the checks of ci that compile nothing: format, which words stand in which
+                    rooms, and which crate uses which
   fuzz obj|mtl|nff [--seconds N]
                     random input for a reader, guided by coverage, for a minute or so long
   coverage          which lines the tests of this machine reach
@@ -83,6 +85,9 @@ impl Command {
         }
         let mut command = match name {
             "ci" => Command::Ci(ci::Options::default()),
+            "tidy" if rest.is_empty() => {
+                return Ok(Command::Ci(ci::Options { scope: Scope::Tidy, setup: false }));
+            }
             "cross" => return cross::Options::parse(rest).map(Command::Cross),
             "fuzz" => return fuzz::Options::parse(rest).map(Command::Fuzz),
             "asm" => Command::Asm { bless: false },
@@ -172,6 +177,7 @@ mod tests {
         assert_eq!(Command::parse(&["ci", "--target", "s390x"]), ci(false, Scope::Only("s390x")));
         assert_eq!(Command::parse(&["asm"]), Ok(Command::Asm { bless: false }));
         assert_eq!(Command::parse(&["asm", "--bless"]), Ok(Command::Asm { bless: true }));
+        assert_eq!(Command::parse(&["tidy"]), ci(false, Scope::Tidy));
         assert_eq!(Command::parse(&["bless"]), Ok(Command::Bless));
     }
 
@@ -198,6 +204,7 @@ mod tests {
             (&["ci", "--target"], "no target \"\""),
             (&["ci", "--target", "vax"], "\"vax\""),
             (&["cross", "-p", "simd4"], "--target"),
+            (&["tidy", "--fast"], "tidy"),
             (&["fuzz", "png"], "\"png\""),
             (&["coverage", "--html"], "\"--html\""),
             (&["cross", "-p", "simd4", "--target"], "--target"),

@@ -9,7 +9,7 @@ use Host::{Any, Has, Linux, LinuxX86, Unix};
 use Levels::{OfThisCpu, These};
 use Link::{Gcc, Lld, Own};
 use Run::{Directly, Miri, Node, Qemu};
-use Tests::{Conformance, Core, Everything, Workspace};
+use Tests::{Brief, Conformance, Core, Everything, Workspace};
 use Tier::{EveryRun, OnDemand};
 
 /// How many cases proptest tries, and so how many rays the other tests trace, wherever programs
@@ -26,19 +26,19 @@ pub(crate) static TARGETS: &[Target] = &[
     target("native",        NATIVE,      Directly,                           OfThisCpu,                                   Everything,  Some(Workspace), Any,           EveryRun),
     // Lesser CPUs: an instruction that one lacks kills the program. SandyBridge has AVX, but no
     // FMA: it must fall back to SSE4.1.
-    target("qemu64",        NATIVE,      qemu("x86_64", "qemu64"),           These(&["scalar", "sse2"]),                  Core,        None,            LinuxX86,      EveryRun),
-    target("nehalem",       NATIVE,      qemu("x86_64", "Nehalem"),          These(&["scalar", "sse2", "sse4.1"]),         Core,        None,            LinuxX86,      EveryRun),
-    target("sandybridge",   NATIVE,      qemu("x86_64", "SandyBridge"),      These(&["scalar", "sse2", "sse4.1"]),         Core,        None,            LinuxX86,      EveryRun),
-    target("haswell",       NATIVE,      qemu("x86_64", "Haswell"),          These(&["scalar", "sse2", "sse4.1", "avx2"]), Core,        None,            LinuxX86,      EveryRun),
+    target("qemu64",        NATIVE,      qemu("x86_64", "qemu64"),           These(&["scalar", "sse2"]),                  Brief,       None,            LinuxX86,      EveryRun),
+    target("nehalem",       NATIVE,      qemu("x86_64", "Nehalem"),          These(&["scalar", "sse2", "sse4.1"]),         Brief,       None,            LinuxX86,      EveryRun),
+    target("sandybridge",   NATIVE,      qemu("x86_64", "SandyBridge"),      These(&["scalar", "sse2", "sse4.1"]),         Brief,       None,            LinuxX86,      EveryRun),
+    target("haswell",       NATIVE,      qemu("x86_64", "Haswell"),          These(&["scalar", "sse2", "sse4.1", "avx2"]), Brief,       None,            LinuxX86,      EveryRun),
     // What the build guarantees is another level, and the compiler has more instructions to go
     // wrong with.
     target("x86-64-v2",     V2,          Directly,                           OfThisCpu,                                   Core,        Some(Core),      Has("sse4.1"), EveryRun),
     target("x86-64-v3",     V3,          Directly,                           OfThisCpu,                                   Core,        Some(Core),      Has("avx2"),   EveryRun),
     target("x86-64-v4",     V4,          Directly,                           OfThisCpu,                                   Core,        Some(Core),      Has("avx512"), EveryRun),
     // Other architectures.
-    target("aarch64",       AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Workspace,   Some(Core),      Linux,         EveryRun),
-    target("cortex-a53",    AARCH64,     qemu("aarch64", "cortex-a53"),      These(&["scalar", "neon"]),                  Core,        None,            Linux,         EveryRun),
-    target("cortex-a72",    AARCH64,     qemu("aarch64", "cortex-a72"),      These(&["scalar", "neon"]),                  Core,        None,            Linux,         EveryRun),
+    target("aarch64",       AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Workspace,   Some(Brief),     Linux,         EveryRun),
+    target("cortex-a53",    AARCH64,     qemu("aarch64", "cortex-a53"),      These(&["scalar", "neon"]),                  Brief,       None,            Linux,         EveryRun),
+    target("cortex-a72",    AARCH64,     qemu("aarch64", "cortex-a72"),      These(&["scalar", "neon"]),                  Brief,       None,            Linux,         EveryRun),
     target("i686",          I686,        Directly,                           OfThisCpu,                                   Core,        Some(Core),      LinuxX86,      EveryRun),
     target("wasm32",        WASM32,      Node,                               These(&["scalar"]),                          Core,        None,            Unix,          EveryRun),
     target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Core,        Some(Core),      Unix,          EveryRun),
@@ -156,12 +156,23 @@ pub(crate) enum Tests {
     Workspace,
     /// Conformance, kernels and golden pictures: the packages [`CORE`].
     Core,
+    /// The same without [`LONG`]: for machines that share their programs with one that ran them.
+    Brief,
     /// Every operation against its definition.
     Conformance,
 }
 
 /// What every architecture must hold.
 pub(crate) const CORE: [&str; 3] = ["simd4", "rt-kernels", "rt-tests"];
+
+/// The tests of [`CORE`] that take an emulator a minute and more.
+pub(crate) const LONG: [&str; 5] = [
+    "build::pathological_scenes",
+    "pictures::every_way",
+    "watertight::ball",
+    "watertight::spiky_ball",
+    "watertight::tiny_ball",
+];
 
 /// Which machines can try a target. The others leave it to them.
 #[derive(Clone, Copy, Debug)]

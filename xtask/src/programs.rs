@@ -1,7 +1,7 @@
 //! The programs of a build: made once, run on every machine and at every level that they are for.
 
 use crate::cross::{cargo, runner};
-use crate::matrix::{Build, CORE, Run, Target, Tests};
+use crate::matrix::{Build, CORE, LONG, Run, Target, Tests};
 use crate::report::{Done, Tally};
 use serde_json::Value;
 use std::ffi::OsString;
@@ -99,6 +99,11 @@ impl Programs {
             (Run::Miri, _) => vec![miri_test(sh, target)],
             _ => self.chosen(tests).map(|test| self.command(sh, target, test)).collect(),
         };
+        if tests == Tests::Brief {
+            for command in &mut commands {
+                command.args(LONG.iter().flat_map(|name| ["--skip", name]));
+            }
+        }
         if tests == Tests::Everything {
             commands.push(cmd!(sh, "cargo test --quiet --locked --workspace --doc").into());
         }
@@ -125,11 +130,12 @@ impl Programs {
 
     /// The test programs that are asked for.
     fn chosen(&self, tests: Tests) -> impl Iterator<Item = &TestProgram> {
+        let in_core_only = matches!(tests, Tests::Core | Tests::Brief);
         let in_core = |test: &TestProgram| {
             let packages = ["simd4", "rt-kernels", "tests"];
             packages.iter().any(|package| test.folder.ends_with(package))
         };
-        self.tests.iter().filter(move |test| tests != Tests::Core || in_core(test))
+        self.tests.iter().filter(move |test| !in_core_only || in_core(test))
     }
 
     /// What runs one of them on the target.

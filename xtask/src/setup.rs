@@ -20,7 +20,11 @@ pub(crate) fn components(sh: &Shell) {
 pub(crate) fn target(sh: &Shell, target: &Target, install: bool) -> Result<(), String> {
     match target.run {
         Run::Directly => {}
-        Run::Qemu { arch, .. } => program(sh, &format!("qemu-{arch}"), &["qemu-user"], install)?,
+        Run::Qemu { arch, .. } => {
+            program(sh, &format!("qemu-{arch}"), &["qemu-user"], install)?;
+            let version = cmd!(sh, "qemu-{arch} --version").quiet().read().unwrap_or_default();
+            is_right(arch, &version)?;
+        }
         Run::Node => program(sh, "node", &["nodejs"], install)?,
         Run::Miri => return miri(sh, install),
     }
@@ -29,6 +33,26 @@ pub(crate) fn target(sh: &Shell, target: &Target, install: bool) -> Result<(), S
         program(sh, &gcc, &packages.map(String::as_str), install)?;
     }
     target.build.triple.map_or(Ok(()), |_| standard_library(sh, &triple(sh, target.build)))
+}
+
+/// Emulators that are of no use before a version of QEMU, and why.
+const WRONG_BEFORE: [(&str, [u32; 2], &str); 2] = [
+    ("x86_64", [7, 2], "has no AVX"),
+    ("s390x", [8, 1], "makes 160 of 3 times 5 (mdebr: two f32 to one f64)"),
+];
+
+/// Whether an emulator of that version does what the CPU would.
+fn is_right(arch: &str, version: &str) -> Result<(), String> {
+    // "qemu-s390x version 7.2.22 (Debian …)"
+    let number = version.split(' ').nth(2).unwrap_or_default();
+    let mut parts = number.split('.').map(|part| part.parse().unwrap_or(0));
+    let found: [u32; 2] = [parts.next().unwrap_or(0), parts.next().unwrap_or(0)];
+    match WRONG_BEFORE.iter().find(|(name, first, _)| *name == arch && found < *first) {
+        Some((_, [major, minor], why)) => Err(format!(
+            "qemu-{arch} {number} {why}: take {major}.{minor} or later, from Debian's backports"
+        )),
+        None => Ok(()),
+    }
 }
 
 /// The package that has a cross compiler.
@@ -110,4 +134,20 @@ fn env_as_root(sh: &Shell) -> Option<(&'static str, &'static [&'static str])> {
 /// Whether a command is there and succeeds. Silent.
 pub(crate) fn runs(cmd: Cmd) -> bool {
     cmd.quiet().ignore_stdout().ignore_stderr().run().is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn emulators_that_err_are_refused() {
+        let old = "qemu-s390x version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)\nCopyright";
+        let new = "qemu-s390x version 10.0.2 (Debian 1:10.0.2+ds-2+deb13u1)\nCopyright";
+        let error = is_right("s390x", old).expect_err("it is known to be wrong");
+        assert!(error.contains("7.2.22") && error.contains("8.1"), "{error}");
+        assert_eq!(is_right("s390x", new), Ok(()));
+        assert_eq!(is_right("x86_64", old), Ok(()));
+        assert_eq!(is_right("aarch64", ""), Ok(()));
+    }
 }

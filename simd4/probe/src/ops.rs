@@ -2,7 +2,11 @@
 //!
 //! Operands and results pass by value under the C calling convention, which puts a register type
 //! in a register: what such a function has besides its operation are copies.
-#![allow(improper_ctypes_definitions, reason = "only the assembly is of interest")]
+#![allow(
+    improper_ctypes_definitions,
+    clippy::missing_safety_doc,
+    reason = "only the assembly is of interest"
+)]
 
 /// Lanes in no order that an instruction would have: `1, 4, 7, …`, counted round.
 pub struct Mixed<V>(std::marker::PhantomData<V>);
@@ -138,6 +142,7 @@ macro_rules! floats {
             to_u32(a: V) -> U = a.to_u32();
             to_i32_fast(a: V) -> I = a.to_i32_fast();
             to_u32_fast(a: V) -> U = a.to_u32_fast();
+            floor_to_i32_fast(a: V) -> I = a.floor_to_i32_fast();
 
             vec3_dot(a: &Vec3<V>, b: &Vec3<V>) -> V = a.dot(*b);
             vec3_cross(a: &Vec3<V>, b: &Vec3<V>) -> Vec3<V> = a.cross(*b);

@@ -45,9 +45,6 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Operations that copy as many elements as a slice has.
-const MAY_COPY: [&str; 2] = ["load_prefix", "store_prefix"];
-
 /// All faults of a listing.
 pub(crate) fn check(listing: &Listing, arch: Arch) -> Vec<Fault> {
     let mut faults = Vec::new();
@@ -105,11 +102,10 @@ fn hot_calls<'a>(
     arch: Arch,
 ) -> Vec<&'a Instruction> {
     let operation = name.contains("::ops::");
-    let exempt = operation && MAY_COPY.iter().any(|op| name.ends_with(op));
     let may_return = |instruction: &&Instruction| {
         call(instruction, arch).is_some_and(|callee| !callee.is_some_and(never_returns))
     };
-    if exempt || !function.code.iter().any(|instruction| may_return(&instruction)) {
+    if !function.code.iter().any(|instruction| may_return(&instruction)) {
         return Vec::new();
     }
     let flow = Flow::of(function, arch, &listing.tabled);
@@ -128,7 +124,6 @@ mod tests {
     const XGETBV: &str = "_RNvNtNtNtCs1_4core9core_arch3x865xsave7__xgetbv";
     const PANIC: &str = "_RNvNtCs1_4core9panicking5panic";
     const OP: &str = "_RNvNtNtNtCs1_11simd4_probe3ops4avx25f32x83add";
-    const PREFIX: &str = "_RNvNtNtNtCs1_11simd4_probe3ops4avx25f32x811load_prefix";
     const KERNEL: &str = "_RNvNtNtCs1_11simd4_probe7kernels2x83dot";
 
     /// The faults of one function, each as its rule and instruction.
@@ -147,7 +142,6 @@ mod tests {
         assert_eq!(path(MUL), "core::core_arch::x86::avx::_mm256_mul_ps");
         assert_eq!(path(XGETBV), "core::core_arch::x86::xsave::_xgetbv");
         assert_eq!(path(OP), "simd4_probe::ops::avx2::f32x8::add");
-        assert_eq!(path(PREFIX), "simd4_probe::ops::avx2::f32x8::load_prefix");
         assert_eq!(path(KERNEL), "simd4_probe::kernels::x8::dot");
     }
 
@@ -191,7 +185,6 @@ mod tests {
     fn an_operation_calls_nothing_at_all() {
         let code = "call qword ptr [rip + memcpy@GOTPCREL]\nret";
         assert_eq!(on_x86(OP, code).len(), 1);
-        assert_eq!(on_x86(PREFIX, code), []);
         assert_eq!(on_x86(OP, &format!("cmp rsi, 7\nja .LBB0_1\ncall {PANIC}\n.LBB0_1:\nret")), []);
     }
 

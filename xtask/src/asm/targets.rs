@@ -52,7 +52,7 @@ pub(crate) const TARGETS: [Target; 3] = [
         arch: Arch::Wasm,
         name: "wasm32",
         triple: "wasm32-wasip1",
-        rustflags: "-C target-feature=+simd128",
+        rustflags: "-Ctarget-feature=+simd128",
         levels: &[Level { name: "simd128", module: "simd128", lanes: 4 }],
     },
 ];
