@@ -137,7 +137,7 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
     /// between levels, and:
     ///
     /// * ±0 gives ±∞ and ±∞ gives ±0; NaN gives NaN, and nothing else does;
-    /// * of a subnormal it may give ±∞, and where the quotient is subnormal, ±0.
+    /// * of a subnormal it may give ±∞, and where the quotient is 2^-126 or less, ±0.
     #[inline(always)]
     fn rcp_est(self) -> Self {
         self.rcp_fast()
