@@ -142,7 +142,6 @@ macro_rules! floats {
             to_u32(a: V) -> U = a.to_u32();
             to_i32_fast(a: V) -> I = a.to_i32_fast();
             to_u32_fast(a: V) -> U = a.to_u32_fast();
-            floor_to_i32_fast(a: V) -> I = a.floor_to_i32_fast();
 
             vec3_dot(a: &Vec3<V>, b: &Vec3<V>) -> V = a.dot(*b);
             vec3_cross(a: &Vec3<V>, b: &Vec3<V>) -> Vec3<V> = a.cross(*b);
