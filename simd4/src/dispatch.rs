@@ -17,8 +17,13 @@ macro_rules! dispatch {
             $crate::Level::Sse41($s) => $crate::__vectorize!($s, $body),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             $crate::Level::Avx2($s) => $crate::__vectorize!($s, $body),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            $crate::Level::Avx512($s) => $crate::__vectorize!($s, $body),
             #[cfg(target_arch = "aarch64")]
             $crate::Level::Neon($s) => $crate::__vectorize!($s, $body),
+            #[cfg(target_arch = "wasm32")]
+            #[allow(unreachable_patterns)]
+            level => $crate::__dispatch_wasm32!(level, $s => $body),
             // `Level` may grow; this macro grows with it.
             #[allow(unreachable_patterns)]
             _ => unreachable!("a level without an arm in dispatch!"),
@@ -37,4 +42,30 @@ macro_rules! __vectorize {
             || $body,
         )
     };
+}
+
+/// The arm of [`dispatch!`] for a level that exists in some builds only. It is this crate that
+/// tells; a `cfg` in the arm would ask the crate that dispatches, which may be built with other
+/// flags, as documentation tests are.
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __dispatch_wasm32 {
+    ($level:ident, $s:ident => $body:expr) => {
+        match $level {
+            $crate::Level::Simd128($s) => $crate::__vectorize!($s, $body),
+            _ => unreachable!("a level without an arm in dispatch!"),
+        }
+    };
+}
+
+/// The same where there is no such level.
+#[cfg(all(target_arch = "wasm32", not(target_feature = "simd128")))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __dispatch_wasm32 {
+    ($level:ident, $s:ident => $body:expr) => {{
+        let _ = $level;
+        unreachable!("a level without an arm in dispatch!")
+    }};
 }

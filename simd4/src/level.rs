@@ -9,8 +9,10 @@ use crate::arch::tokens::*;
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum Level {
-    /// Plain scalar code, in every build. AltiVec and other vector units that stable Rust does not
-    /// reach run this one, as the compiler vectorises it.
+    /// Plain scalar code, in every build, and what vector units run that stable Rust does not
+    /// reach, as the compiler vectorises it. AltiVec is one: its intrinsics are for nightly alone.
+    /// Built for powerpc64le, `f32x4` of this level is VSX all the same (`xvmulsp`, `xvdivsp`,
+    /// `xvsqrtsp`, `xvcmpgtsp` with `xxsel`) and `u32x4` AltiVec (`vadduwm`), four lanes at once.
     Scalar(Scalar),
     /// SSE2: the baseline of x86-64.
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -21,14 +23,20 @@ pub enum Level {
     /// AVX2 with all of x86-64-v3: FMA, BMI1, BMI2, LZCNT, POPCNT, F16C, MOVBE.
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     Avx2(Avx2),
+    /// AVX-512 with all of x86-64-v4: F, BW, CD, DQ and VL on top of [`Level::Avx2`].
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    Avx512(Avx512),
     /// NEON: the baseline of AArch64.
     #[cfg(target_arch = "aarch64")]
     Neon(Neon),
+    /// WebAssembly's fixed-width SIMD, in builds that enable it.
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    Simd128(Simd128),
 }
 
 impl Level {
     /// The names of all levels, of every architecture: what [`Level::named`] may be asked for.
-    pub const NAMES: [&str; 5] = ["scalar", "sse2", "sse4.1", "avx2", "neon"];
+    pub const NAMES: [&str; 7] = ["scalar", "sse2", "sse4.1", "avx2", "avx512", "neon", "simd128"];
 
     /// All levels of this architecture, weakest first; `None` for those that the CPU lacks.
     fn detect() -> impl DoubleEndedIterator<Item = Option<Level>> {
@@ -40,8 +48,12 @@ impl Level {
             Sse41::detect().map(Level::Sse41),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             Avx2::detect().map(Level::Avx2),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Avx512::detect().map(Level::Avx512),
             #[cfg(target_arch = "aarch64")]
             Neon::detect().map(Level::Neon),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Simd128::detect().map(Level::Simd128),
         ]
         .into_iter()
     }
@@ -77,7 +89,7 @@ impl Level {
             .ok_or(LevelError { lacking: known.copied() })
     }
 
-    /// `scalar`, `sse2`, `sse4.1`, `avx2` or `neon`.
+    /// `scalar`, `sse2`, `sse4.1`, `avx2`, `avx512`, `neon` or `simd128`.
     pub fn name(self) -> &'static str {
         match self {
             Level::Scalar(_) => "scalar",
@@ -87,8 +99,12 @@ impl Level {
             Level::Sse41(_) => "sse4.1",
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             Level::Avx2(_) => "avx2",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx512(_) => "avx512",
             #[cfg(target_arch = "aarch64")]
             Level::Neon(_) => "neon",
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Level::Simd128(_) => "simd128",
         }
     }
 

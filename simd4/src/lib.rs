@@ -1,13 +1,13 @@
 //! Lanes that mean the same on every CPU.
 //!
-//! The same program gives the same bits on SSE2, SSE4.1, AVX2, NEON and on plain scalar code.
-//! [`spec`] holds the definition: one scalar function for each operation. Every level equals it
+//! The same program gives the same bits on SSE2, SSE4.1, AVX2, AVX-512, NEON, WebAssembly's simd128
+//! and on plain scalar code. [`spec`] holds the definition: one scalar function for each operation. Every level equals it
 //! bit for bit in every lane, for every input; only which NaN a NaN result is remains open.
 //!
 //! # Three things to know
 //!
-//! * A **level** is a set of instructions: `scalar`, `sse2`, `sse4.1`, `avx2` (all of x86-64-v3),
-//!   `neon`. [`Level`] is one that this CPU has, found once and then passed around.
+//! * A **level** is a set of instructions, from `scalar` over `sse2` to `avx512`, or `neon`, or
+//!   `simd128`. [`Level`] is one that this CPU has, found once and then passed around.
 //! * A **token** ([`Scalar`], `Sse2`, `Avx2`, …) is the proof of a level, of no size. Only
 //!   detection hands it out, so safe code cannot run an instruction that the CPU lacks.
 //! * A **kernel** is a generic function on a token's types. [`dispatch!`] compiles it once for
@@ -82,6 +82,8 @@
 //! | `neon` | AArch64 | 4 | at run time | AArch64 |
 //! | `simd128` | WebAssembly | 4 | when compiling | `-C target-feature=+simd128` |
 //!
+//! What each operation is compiled to at each level: [`instructions`].
+//!
 //! AVX without AVX2 and FMA falls back to `sse4.1`. 32-bit ARM has no level, since its NEON flushes
 //! subnormals; AltiVec (which the paper that this crate began with had), RVV and SVE have none
 //! because stable Rust does not reach them: there the scalar level runs, as the compiler
@@ -131,6 +133,10 @@ mod arch;
 #[cfg(feature = "std")]
 pub mod check;
 mod dispatch;
+// Not for the compiler: the table is made of what that makes of this crate.
+#[cfg(doc)]
+#[doc = include_str!("../INSTRUCTIONS.md")]
+pub mod instructions {}
 mod level;
 pub mod math;
 mod simd;

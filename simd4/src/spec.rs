@@ -6,6 +6,10 @@
 //! integers (they wrap), comparisons, `as` between numbers (truncating and saturating, NaN to 0;
 //! to nearest even), bit casts.
 
+use crate::math::elementary;
+use crate::scalar::f32x1;
+use crate::{Lanes, Scalar};
+
 const SIGN: u32 = 1 << 31;
 
 /// The square root, correctly rounded; −0 for −0, NaN below zero.
@@ -161,6 +165,55 @@ pub fn fused_nmul_add(a: f32, b: f32, c: f32) -> f32 {
 #[inline(always)]
 pub fn fused_nmul_sub(a: f32, b: f32, c: f32) -> f32 {
     fused_mul_add(-a, b, -c)
+}
+
+/// 2 to the power `x`: at most 1.11 ulp off; exact for integers, results that are subnormal
+/// included.
+///
+/// 1 for ±0, +∞ from 128 on, +0 from −150 down, NaN for NaN.
+#[inline]
+pub fn exp2(x: f32) -> f32 {
+    elementary::exp2(one_lane(x)).lane(0)
+}
+
+/// The logarithm of `x` to base 2: at most 2.17 ulp off; exact for powers of two.
+///
+/// −∞ for ±0, NaN below zero and for NaN.
+#[inline]
+pub fn log2(x: f32) -> f32 {
+    elementary::log2(one_lane(x)).lane(0)
+}
+
+/// `x` to the power `y`.
+///
+/// At most 4 ulp off: 2.37 was the worst of 1.4·10⁹ pairs, 1.34 of those that shading has. Exact
+/// where `x` is a power of two and the result one too.
+///
+/// Special cases, the upper ones first:
+///
+/// | x | y | result |
+/// |---|---|---|
+/// | any, NaN too | ±0 | 1 |
+/// | 1 | any, NaN too | 1 |
+/// | NaN | | NaN |
+/// | | NaN | NaN |
+/// | −1 | ±∞ | 1 |
+/// | absolutely below 1 | −∞, +∞ | +∞, +0 |
+/// | absolutely above 1 | −∞, +∞ | +0, +∞ |
+/// | ±0 | odd integer below 0, above 0 | ±∞, ±0 |
+/// | ±0 | other below 0, above 0 | +∞, +0 |
+/// | −∞ | odd integer below 0, above 0 | −0, −∞ |
+/// | ±∞ | other below 0, above 0 | +0, +∞ |
+/// | finite below 0 | odd integer | −(−x)^y |
+/// | finite below 0 | not an integer | NaN |
+#[inline]
+pub fn pow(x: f32, y: f32) -> f32 {
+    elementary::pow(one_lane(x), one_lane(y)).lane(0)
+}
+
+#[inline(always)]
+fn one_lane(x: f32) -> f32x1 {
+    f32x1::splat(Scalar::new(), x)
 }
 
 /// The bits moved up by `n`, zeros below; 0 if `n` is 32 or more.

@@ -1,11 +1,10 @@
 //! `cargo xtask ci`: everything that must hold before a change goes in.
 
-use crate::levels::Levels;
-use crate::matrix::{self, Emulator, HOST, Target};
-use crate::report::{Outcome, Report, Row, Tally};
-use crate::setup;
-use std::process::{Command, Stdio};
-use std::time::Instant;
+use crate::cross::cargo;
+use crate::matrix::{Build, TARGETS, Target, Tests, Tier};
+use crate::programs::Programs;
+use crate::report::{Done, Report};
+use crate::{asm, fuzz, setup, tidy};
 use xshell::{Cmd, Shell, cmd};
 
 /// The flags of `ci`.
@@ -13,53 +12,82 @@ use xshell::{Cmd, Shell, cmd};
 pub(crate) struct Options {
     /// Install what is missing.
     pub(crate) setup: bool,
-    /// The inner loop only.
-    pub(crate) fast: bool,
+    /// How much to do.
+    pub(crate) scope: Scope,
 }
 
-/// A line of the plan.
-struct Step<'a> {
-    /// Its name in the report.
-    name: String,
-    /// What to do.
-    action: Action<'a>,
-    /// The step without whose success this one makes no sense.
-    needs: Option<String>,
+/// How much to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Scope {
+    /// What no change goes in without.
+    #[default]
+    EveryRun,
+    /// Without compiling anything.
+    Tidy,
+    /// The inner loop.
+    Fast,
+    /// Also what is tested on demand.
+    All,
+    /// The tests of one target.
+    Only(&'static str),
 }
 
-impl<'a> Step<'a> {
-    /// A step that needs no other.
-    fn new(name: impl Into<String>, action: Action<'a>) -> Step<'a> {
-        Step { name: name.into(), action, needs: None }
-    }
-}
+/// A check of the source: its name, and what it does.
+type Check = (&'static str, fn(&Shell, Options) -> Done);
 
-/// What a step does.
-enum Action<'a> {
-    /// Succeeds if the command does.
-    Run(Cmd<'a>),
-    /// The same, and counts the tests in its output.
-    Test(Cmd<'a>),
-    /// Fails for a reason already known.
-    Fail(String),
-    /// Is skipped for a reason already known.
-    Skip(String),
-}
+/// What is checked, in this order: the first [`TIDY`] take seconds, the first [`QUICK`] are for the
+/// inner loop.
+const CHECKS: [Check; 7] = [
+    ("format", format),
+    ("rooms", rooms),
+    ("arrows", arrows),
+    ("clippy", clippy),
+    ("docs", docs),
+    ("licences", licences),
+    ("fuzz targets", fuzz),
+];
+const TIDY: usize = 3;
+const QUICK: usize = 4;
 
-/// Plans, runs and reports; true if all is well.
+/// The packages outside the workspace.
+const NESTED: [&str; 2] = ["simd4/compare/Cargo.toml", "tests/fuzz/Cargo.toml"];
+
+/// Checks, tests and reports; true if all is well.
 pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     // A machine that is meant to check everything must not pass for lack of a piece.
     let strict = sh.var("CI").is_ok_and(|ci| ci == "true");
-    let steps = plan(sh, options);
+    if options.setup {
+        setup::components(sh);
+    }
+    let checks = match options.scope {
+        Scope::EveryRun | Scope::All => &CHECKS[..],
+        Scope::Fast => &CHECKS[..QUICK],
+        Scope::Tidy => &CHECKS[..TIDY],
+        Scope::Only(_) => &[],
+    };
+    let targets: Vec<_> = TARGETS.iter().filter(|target| options.scope.includes(target)).collect();
+
+    // The machine code, of all levels and so of no target in particular.
+    let machine_code = matches!(options.scope, Scope::EveryRun | Scope::All);
+
+    let total = checks.len() + usize::from(machine_code) + targets.len();
+    let mut numbers = 1..=total;
+    let mut announce = |name: &str| {
+        println!("[{}/{total}] {name}", numbers.next().unwrap_or(total));
+    };
     let mut report = Report::default();
-    let total = steps.len();
-    for (i, step) in steps.into_iter().enumerate() {
-        println!("[{}/{total}] {}", i + 1, step.name);
-        let row = run(step, &report);
-        if row.outcome != Outcome::Passed {
-            println!("      {}", row.reason);
-        }
-        report.rows.push(row);
+    for (name, check) in checks {
+        announce(name);
+        report.step(name, "", || check(sh, options));
+    }
+    if machine_code {
+        announce("asm");
+        asm::check(sh, &mut report, false);
+    }
+    let mut built = None;
+    for target in targets {
+        announce(target.name);
+        test(sh, target, options, &mut built, &mut report);
     }
     let ok = report.ok(strict);
     if !ok && report.ok(false) {
@@ -69,129 +97,137 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     ok
 }
 
-/// All steps, in order. Asks the machines for their levels, for which it builds `rt`.
-fn plan(sh: &Shell, Options { setup, fast }: Options) -> Vec<Step<'_>> {
-    if setup {
-        setup::components(sh);
-    }
-    let clippy = cmd!(sh, "cargo clippy --quiet --locked --keep-going --workspace --all-targets");
-    let docs = cmd!(sh, "cargo doc --quiet --locked --keep-going --workspace --no-deps");
-    let mut steps = vec![
-        Step::new("format", Action::Run(cmd!(sh, "cargo fmt --all --check"))),
-        Step::new("clippy", Action::Run(clippy.args(["--", "-D", "warnings"]))),
-    ];
-    if fast {
-        let name = format!("test, {}, best level", HOST.arch);
-        steps.push(Step::new(name, Action::Test(cargo_test(sh, &HOST))));
-        return steps;
-    }
-    steps.push(Step::new("docs", Action::Run(docs.env("RUSTDOCFLAGS", "-D warnings"))));
-    steps.extend(tests(sh, &HOST));
-    for target in matrix::foreign() {
-        match setup::target(sh, &target, setup) {
-            Ok(()) => steps.extend(tests(sh, &target)),
-            Err(reason) => {
-                steps.push(Step::new(format!("test, {}", target.arch), Action::Skip(reason)));
-            }
+impl Scope {
+    /// Whether a target is to be tested.
+    fn includes(self, target: &Target) -> bool {
+        match self {
+            Scope::EveryRun => target.tier == Tier::EveryRun,
+            Scope::Fast => target.best == Tests::Everything,
+            Scope::All => true,
+            Scope::Tidy => false,
+            Scope::Only(name) => target.name == name,
         }
     }
-    steps
 }
 
-/// All tests on one target: built once, run at the best level and then at each other.
-fn tests<'a>(sh: &'a Shell, target: &Target) -> Vec<Step<'a>> {
-    let arch = target.arch;
-    println!("building rt for {arch}, which knows the levels there");
-    let levels = Levels::of(sh, target);
-    // So that what does not build is said once, not for each level.
-    let build = format!("build tests, {arch}");
-    let test = |level: &str, cmd| Step {
-        name: format!("test, {arch}, {level}"),
-        action: Action::Test(cmd),
-        needs: Some(build.clone()),
-    };
-    let mut steps =
-        vec![Step::new(build.clone(), Action::Run(cargo_test(sh, target).arg("--no-run")))];
-    match levels {
-        Ok(Levels { default, others }) => {
-            // The best level without the variable, as it is for everybody.
-            steps.push(test(&format!("level {default}"), cargo_test(sh, target)));
-            steps.extend(others.iter().map(|level| {
-                test(&format!("level {level}"), cargo_test(sh, target).env("SIMD4_LEVEL", level))
-            }));
+/// Builds the tests for a target, unless the target before has the same build, and runs them at
+/// each level.
+fn test(
+    sh: &Shell,
+    target: &Target,
+    options: Options,
+    built: &mut Option<(Build, Programs)>,
+    report: &mut Report,
+) {
+    let name = target.name;
+    if let Some(reason) = target.elsewhere() {
+        report.step(name, "", || Done::left(reason));
+        return;
+    }
+    if let Err(reason) = setup::target(sh, target, options.setup) {
+        report.step(name, "", || Done::skipped(reason));
+        return;
+    }
+    if target.is_built_apart() && built.as_ref().is_none_or(|(build, _)| *build != target.build) {
+        *built = None;
+        if target.build.triple.is_some() {
+            // Code that clippy does not see on the host.
+            report.step(name, "clippy", || {
+                let args = ["--quiet", "--locked", "-p", "simd4", "--", "-D", "warnings"];
+                succeeds(cargo(sh, target, "clippy").args(args))
+            });
         }
+        let build = || Programs::build(sh, target).map(|programs| (target.build, programs));
+        report.step(name, "build", || match build() {
+            Ok(programs) => {
+                *built = Some(programs);
+                Ok(()).into()
+            }
+            Err(reason) => Err(reason).into(),
+        });
+    }
+    let none = Programs::default();
+    let programs = match built {
+        Some((build, programs)) if *build == target.build => programs,
+        // What does not build has been said.
+        _ if target.is_built_apart() => return,
+        _ => &none,
+    };
+    let levels = match programs.levels(sh, target) {
+        Ok(levels) => levels,
         Err(reason) => {
-            steps.push(Step::new(format!("levels, {arch}"), Action::Fail(reason)));
-            steps.push(test("best level", cargo_test(sh, target)));
-        }
-    }
-    steps
-}
-
-/// The command that runs all tests, doc tests too, on a target at its best level.
-fn cargo_test<'a>(sh: &'a Shell, target: &Target) -> Cmd<'a> {
-    let cmd = cmd!(sh, "cargo test --quiet --locked --workspace --no-fail-fast")
-        .args(target.cargo_args())
-        // Either would change what the tests check.
-        .env_remove("SIMD4_LEVEL")
-        .env_remove("RT_BLESS");
-    match target.emulator {
-        // xtask is a tool of the host. The others find in the environment how to start `rt`, and
-        // how many random cases to try: an emulator is slower by a factor of ten and more.
-        Some(Emulator { program, .. }) => {
-            cmd.args(["--exclude", "xtask"]).env("RT_RUNNER", program).env("PROPTEST_CASES", "32")
-        }
-        None => cmd.env_remove("RT_RUNNER"),
-    }
-}
-
-/// Does one step, unless the rows so far rule it out.
-fn run(step: Step, before: &Report) -> Row {
-    let start = Instant::now();
-    let failed = |name: &String| {
-        before.rows.iter().any(|row| row.step == *name && row.outcome != Outcome::Passed)
-    };
-    let (outcome, tally, reason) = match (step.needs.filter(failed), step.action) {
-        (Some(needs), _) => (Outcome::Skipped, None, format!("needs: {needs}")),
-        (None, Action::Skip(reason)) => (Outcome::Skipped, None, reason),
-        (None, Action::Fail(reason)) => (Outcome::Failed, None, reason),
-        (None, Action::Run(cmd)) => {
-            let (outcome, _, reason) = execute(cmd);
-            (outcome, None, reason)
-        }
-        (None, Action::Test(cmd)) => {
-            let (outcome, stdout, reason) = execute(cmd);
-            let mut tally = Tally::of(&stdout);
-            if outcome == Outcome::Failed && tally.failed == 0 {
-                // A test binary that crashed counts nothing; "0 failed" would be a lie.
-                tally.failed = 1;
-            }
-            (outcome, Some(tally), reason)
+            report.step(name, "levels", || Err(reason).into());
+            return;
         }
     };
-    Row { step: step.name, outcome, time: start.elapsed(), tally, reason }
+    let (best, others) = levels.split_last().expect("a list that is as the table demands");
+    // The best level without the variable, as it is for everybody.
+    report.step(name, best, || programs.run(sh, target, target.best, None));
+    let others = others.iter().filter(|_| options.scope != Scope::Fast);
+    for (level, tests) in others.filter_map(|level| Some((level, target.others?))) {
+        report.step(name, level, || programs.run(sh, target, tests, Some(level)));
+    }
 }
 
-/// Runs a command: how it ended, its standard output, and if it failed, how. Cargo's errors pass
-/// through as they come; its standard output, which holds the tests' own, only on failure.
-fn execute(cmd: Cmd) -> (Outcome, String, String) {
-    let mut shown = cmd.to_string();
-    let mut command = Command::from(cmd);
-    for (name, value) in command.get_envs() {
-        if let Some(value) = value {
-            // As a shell takes it: the line is there to be pasted.
-            shown = format!("{}={value:?} {shown}", name.display());
-        }
+fn rooms(sh: &Shell, _: Options) -> Done {
+    tidy::rooms(sh)
+}
+
+fn arrows(sh: &Shell, _: Options) -> Done {
+    tidy::arrows(sh)
+}
+
+fn fuzz(sh: &Shell, options: Options) -> Done {
+    fuzz::check(sh, options.setup)
+}
+
+fn format(sh: &Shell, _: Options) -> Done {
+    let mut manifests = ["Cargo.toml"].into_iter().chain(NESTED);
+    let check = |manifest| {
+        let command = cmd!(sh, "cargo fmt --all --check --manifest-path {manifest}").quiet();
+        command.run().map_err(|error| error.to_string())
+    };
+    manifests.try_for_each(check).into()
+}
+
+fn clippy(sh: &Shell, _: Options) -> Done {
+    let clippy = cmd!(sh, "cargo clippy --quiet --locked --keep-going --workspace --all-targets");
+    succeeds(clippy.args(["--", "-D", "warnings"]))
+}
+
+fn docs(sh: &Shell, _: Options) -> Done {
+    let docs = cmd!(sh, "cargo doc --quiet --locked --keep-going --workspace --no-deps");
+    succeeds(docs.env("RUSTDOCFLAGS", "-D warnings"))
+}
+
+/// What deny.toml says, where there is who reads it.
+fn licences(sh: &Shell, _: Options) -> Done {
+    if !setup::runs(cmd!(sh, "cargo deny --version")) {
+        return Done::left("no cargo-deny: cargo install --locked cargo-deny".to_owned());
     }
-    match command.stdin(Stdio::null()).stderr(Stdio::inherit()).output() {
-        Err(error) => (Outcome::Failed, String::new(), format!("{error}: {shown}")),
-        Ok(output) => {
-            let stdout = String::from_utf8_lossy(&output.stdout).into_owned();
-            if output.status.success() {
-                return (Outcome::Passed, stdout, String::new());
-            }
-            print!("{stdout}");
-            (Outcome::Failed, stdout, format!("{}: {shown}", output.status))
-        }
+    // Not the advisories: they change without a change here.
+    succeeds(cmd!(sh, "cargo deny --log-level error check licenses bans sources"))
+}
+
+/// Passed if the command succeeds; what it prints passes through.
+pub(crate) fn succeeds(command: Cmd) -> Done {
+    command.quiet().run().map_err(|error| error.to_string()).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(scope: Scope) -> Vec<&'static str> {
+        TARGETS.iter().filter(|target| scope.includes(target)).map(|target| target.name).collect()
+    }
+
+    #[test]
+    fn the_inner_loop_is_this_machine_and_all_is_all() {
+        let (every, all) = (names(Scope::EveryRun), names(Scope::All));
+        assert_eq!(names(Scope::Fast), ["native"]);
+        assert_eq!(names(Scope::Only("s390x")), ["s390x"]);
+        assert!(every.contains(&"aarch64") && !every.contains(&"s390x"));
+        assert!(all.contains(&"s390x") && all.len() == TARGETS.len());
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::ops::AddAssign;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A count of tests.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,8 +16,8 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Sums cargo's lines `test result: ok. 23 passed; 0 failed; 1 ignored; …`, of which there is
-    /// one for each test binary and for the doc tests of each crate.
+    /// Sums the lines `test result: ok. 23 passed; 0 failed; 1 ignored; …`, of which there is one
+    /// for each test program and for the documentation of each crate.
     pub(crate) fn of(stdout: &str) -> Tally {
         let mut sum = Tally::default();
         for line in stdout.lines().filter_map(|line| line.strip_prefix("test result: ")) {
@@ -55,37 +55,89 @@ pub(crate) enum Outcome {
     Passed,
     /// It did not.
     Failed,
-    /// It could not be tried.
+    /// It could not be tried for lack of something that this machine could have.
     Skipped,
+    /// It is nothing that must be tried on this machine.
+    Left,
+}
+
+/// What came of a step.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Done {
+    /// How it ended.
+    pub(crate) outcome: Outcome,
+    /// The tests that it ran, if it was to run any.
+    pub(crate) tally: Option<Tally>,
+    /// Why it ended as it did, if it did not pass.
+    pub(crate) reason: String,
+}
+
+impl Done {
+    /// All those tests passed.
+    pub(crate) fn passed(tally: Tally) -> Done {
+        Done { outcome: Outcome::Passed, tally: Some(tally), reason: String::new() }
+    }
+
+    /// Not all did.
+    pub(crate) fn failed(tally: Tally, reason: String) -> Done {
+        Done { outcome: Outcome::Failed, tally: Some(tally), reason }
+    }
+
+    /// There is something missing.
+    pub(crate) fn skipped(reason: String) -> Done {
+        Done { outcome: Outcome::Skipped, tally: None, reason }
+    }
+
+    /// It need not be tried here.
+    pub(crate) fn left(reason: String) -> Done {
+        Done { outcome: Outcome::Left, tally: None, reason }
+    }
+}
+
+/// Passed, or failed for that reason.
+impl From<Result<(), String>> for Done {
+    fn from(result: Result<(), String>) -> Done {
+        let outcome = if result.is_ok() { Outcome::Passed } else { Outcome::Failed };
+        Done { outcome, tally: None, reason: result.err().unwrap_or_default() }
+    }
 }
 
 /// A row of the closing table.
 #[derive(Debug)]
-pub(crate) struct Row {
-    /// The step's name.
-    pub(crate) step: String,
-    /// How it ended.
-    pub(crate) outcome: Outcome,
-    /// How long it took.
-    pub(crate) time: Duration,
-    /// The tests it ran, if it was to run any.
-    pub(crate) tally: Option<Tally>,
-    /// Why it failed or was skipped.
-    pub(crate) reason: String,
+struct Row {
+    step: String,
+    level: String,
+    done: Done,
+    time: Duration,
 }
 
 /// All that happened.
 #[derive(Debug, Default)]
 pub(crate) struct Report {
     /// One row a step, in their order.
-    pub(crate) rows: Vec<Row>,
+    rows: Vec<Row>,
 }
 
 impl Report {
+    /// Does a step and writes down what came of it; true if it passed.
+    pub(crate) fn step(&mut self, step: &str, level: &str, act: impl FnOnce() -> Done) -> bool {
+        if !level.is_empty() {
+            println!("      {level}");
+        }
+        let start = Instant::now();
+        let done = act();
+        let (time, passed) = (start.elapsed(), done.outcome == Outcome::Passed);
+        if !passed {
+            println!("      {}", done.reason);
+        }
+        self.rows.push(Row { step: step.to_owned(), level: level.to_owned(), done, time });
+        passed
+    }
+
     /// Whether all is well. Where `strict`, a skip is as bad as a failure.
     pub(crate) fn ok(&self, strict: bool) -> bool {
-        self.rows.iter().all(|row| match row.outcome {
-            Outcome::Passed => true,
+        self.rows.iter().all(|row| match row.done.outcome {
+            Outcome::Passed | Outcome::Left => true,
             Outcome::Failed => false,
             Outcome::Skipped => !strict,
         })
@@ -95,18 +147,31 @@ impl Report {
 /// The table, and as the last line, for machines, the count of tests.
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let width = self.rows.iter().map(|row| row.step.len()).max().unwrap_or(0);
+        let width = |of: fn(&Row) -> &str| self.rows.iter().map(|row| of(row).len()).max();
+        let (steps, levels) = (width(|row| &row.step), width(|row| &row.level));
+        let (steps, levels) = (steps.unwrap_or(0).max(6), levels.unwrap_or(0).max(5));
+        writeln!(
+            f,
+            "{:steps$}  {:levels$}  {:7}  {:>6}  {:>6}  {:>7}  {:>7}",
+            "target", "level", "", "passed", "failed", "skipped", "seconds"
+        )?;
         let mut sum = Tally::default();
-        for Row { step, outcome, time, tally, reason } in &self.rows {
+        for Row { step, level, done: Done { outcome, tally, reason }, time } in &self.rows {
             let outcome = match outcome {
                 Outcome::Passed => "passed",
                 Outcome::Failed => "FAILED",
                 Outcome::Skipped => "skipped",
+                Outcome::Left => "-",
             };
-            let tests = tally.map_or(String::new(), |tally| tally.to_string());
-            let gap = if tests.is_empty() || reason.is_empty() { "" } else { "; " };
+            let count = |of: fn(&Tally) -> u64| {
+                tally.as_ref().map_or(String::new(), |tally| of(tally).to_string())
+            };
+            let counts = [count(|t| t.passed), count(|t| t.failed), count(|t| t.skipped)];
             let line = format!(
-                "{step:width$}  {outcome:7} {:6.1} s  {tests}{gap}{reason}",
+                "{step:steps$}  {level:levels$}  {outcome:7}  {:>6}  {:>6}  {:>7}  {:7.1}  {reason}",
+                counts[0],
+                counts[1],
+                counts[2],
                 time.as_secs_f64()
             );
             writeln!(f, "{}", line.trim_end())?;
@@ -133,24 +198,37 @@ mod tests {
 
     #[test]
     fn a_skip_is_a_failure_only_where_strict_and_a_failure_always() {
-        let report = |outcomes: &[Outcome]| Report {
-            rows: outcomes
-                .iter()
-                .map(|&outcome| Row {
-                    step: "a".to_owned(),
-                    outcome,
-                    time: Duration::ZERO,
-                    tally: Some(Tally { passed: 2, failed: 0, skipped: 1 }),
-                    reason: String::new(),
-                })
-                .collect(),
+        let tally = Tally { passed: 2, failed: 0, skipped: 1 };
+        let passed = || Done::passed(tally);
+        let failed = || Done::failed(tally, "why".to_owned());
+        let skipped = || Done::skipped("no tool".to_owned());
+        let left = || Done::left("not here".to_owned());
+        let report = |dones: [Done; 2]| {
+            let mut report = Report::default();
+            for done in dones {
+                report.step("a", "", || done);
+            }
+            report
         };
-        use Outcome::{Failed, Passed, Skipped};
-        assert!(report(&[Passed, Passed]).ok(true));
-        assert!(report(&[Passed, Skipped]).ok(false));
-        assert!(!report(&[Passed, Skipped]).ok(true));
-        assert!(!report(&[Failed, Passed]).ok(false));
-        let text = report(&[Passed, Skipped]).to_string();
-        assert_eq!(text.lines().last(), Some("4 passed, 0 failed, 2 skipped"));
+        assert!(report([passed(), left()]).ok(true));
+        assert!(report([passed(), skipped()]).ok(false));
+        assert!(!report([passed(), skipped()]).ok(true));
+        assert!(!report([failed(), passed()]).ok(false));
+        assert!(!report([passed(), Err("why".to_owned()).into()]).ok(false));
+    }
+
+    #[test]
+    fn the_table_says_all_and_its_last_line_is_the_sum() {
+        let mut report = Report::default();
+        assert!(report.step("format", "", || Ok(()).into()));
+        let tally = Tally { passed: 40, failed: 2, skipped: 1 };
+        assert!(!report.step("aarch64", "neon", || Done::failed(tally, "exit 101".to_owned())));
+        let table = report.to_string();
+        let lines: Vec<_> = table.lines().collect();
+        assert_eq!(lines.len(), 4);
+        for word in ["aarch64", "neon", "FAILED", "40", "2", "1", "exit 101"] {
+            assert!(lines[2].contains(word), "{word} is not in {:?}", lines[2]);
+        }
+        assert_eq!(lines[3], "40 passed, 2 failed, 1 skipped");
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Whatever can't be had is named in one line that ends in the command that helps.
 
-use crate::matrix::{Emulator, Target};
+use crate::cross::{linker, triple};
+use crate::matrix::{Link, Run, Target};
 use std::path::Path;
 use xshell::{Cmd, Shell, cmd};
 
@@ -14,21 +15,59 @@ pub(crate) fn components(sh: &Shell) {
     }
 }
 
-/// Makes sure that programs for the target can be built and run: adds the target through rustup,
-/// and with `install` the emulator through apt-get.
+/// Makes sure that programs for the target can be built and run: adds what it takes through
+/// rustup, and with `install` what else it takes through apt-get.
 pub(crate) fn target(sh: &Shell, target: &Target, install: bool) -> Result<(), String> {
-    if let Some(reason) = target.impossible() {
-        return Err(reason);
+    match target.run {
+        Run::Directly => {}
+        Run::Qemu { arch, .. } => {
+            program(sh, &format!("qemu-{arch}"), &["qemu-user"], install)?;
+            let version = cmd!(sh, "qemu-{arch} --version").quiet().read().unwrap_or_default();
+            is_right(arch, &version)?;
+        }
+        Run::Node => program(sh, "node", &["nodejs"], install)?,
+        Run::Miri => return miri(sh, install),
     }
-    if let Some(found) = target.emulator {
-        emulator(sh, found, install)?;
+    if let (Link::Gcc(_, debian), Some(gcc)) = (target.build.link, linker(target.build.link)) {
+        let packages = [&gcc_package(&gcc), &format!("libc6-dev-{debian}-cross")];
+        program(sh, &gcc, &packages.map(String::as_str), install)?;
     }
-    target.triple.map_or(Ok(()), |triple| standard_library(sh, triple))
+    target.build.triple.map_or(Ok(()), |_| standard_library(sh, &triple(sh, target.build)))
 }
 
-/// Makes sure that there is an emulator.
-fn emulator(sh: &Shell, emulator: Emulator, install: bool) -> Result<(), String> {
-    let Emulator { program, package } = emulator;
+/// Emulators that are of no use before a version of QEMU, and why.
+const WRONG_BEFORE: [(&str, [u32; 2], &str); 2] = [
+    ("x86_64", [7, 2], "has no AVX"),
+    ("s390x", [8, 1], "makes 160 of 3 times 5 (mdebr: two f32 to one f64)"),
+];
+
+/// Whether an emulator of that version does what the CPU would.
+fn is_right(arch: &str, version: &str) -> Result<(), String> {
+    // "qemu-s390x version 7.2.22 (Debian …)"
+    let number = version.split(' ').nth(2).unwrap_or_default();
+    let mut parts = number.split('.').map(|part| part.parse().unwrap_or(0));
+    let found: [u32; 2] = [parts.next().unwrap_or(0), parts.next().unwrap_or(0)];
+    match WRONG_BEFORE.iter().find(|(name, first, _)| *name == arch && found < *first) {
+        Some((_, [major, minor], why)) => Err(format!(
+            "qemu-{arch} {number} {why}: take {major}.{minor} or later, from Debian's backports"
+        )),
+        None => Ok(()),
+    }
+}
+
+/// The package that has a cross compiler.
+fn gcc_package(gcc: &str) -> String {
+    let gnu = gcc.strip_suffix("-gcc").unwrap_or(gcc);
+    format!("gcc-{gnu}")
+}
+
+/// Makes sure that there is a program, which is in those packages of Debian and Ubuntu.
+pub(crate) fn program(
+    sh: &Shell,
+    program: &str,
+    packages: &[&str],
+    install: bool,
+) -> Result<(), String> {
     let there = || runs(cmd!(sh, "{program} --version"));
     if there() {
         return Ok(());
@@ -41,28 +80,43 @@ fn emulator(sh: &Shell, emulator: Emulator, install: bool) -> Result<(), String>
             let _ = cmd!(sh, "{env} {to_env...} {noninteractive} apt-get -qq {args...}").run();
         };
         apt(&["update"]);
-        apt(&["install", "-y", "--no-install-recommends", package]);
+        apt(&[&["install", "-y", "--no-install-recommends"], packages].concat());
         if there() {
             return Ok(());
         }
     }
-    Err(format!("no {program}: sudo apt-get install {package}"))
+    Err(format!("no {program}: sudo apt-get install {}", packages.join(" ")))
 }
 
 /// Makes sure that the toolchain has a target's standard library.
-fn standard_library(sh: &Shell, triple: &str) -> Result<(), String> {
+pub(crate) fn standard_library(sh: &Shell, triple: &str) -> Result<(), String> {
     // Asked of rustc rather than rustup: it costs no network, and a toolchain that did not come
     // from rustup may have the target too.
     let libs = cmd!(sh, "rustc --print target-libdir --target {triple}").quiet().read();
     if libs.is_ok_and(|dir| Path::new(&dir).is_dir()) {
         return Ok(());
     }
+    // Debian has a recent toolchain for its own architectures, under these names.
+    let debian = "Debian has its own: apt-get install rustc-web libstd-rust-web-dev:arm64 (or \
+                  another architecture)";
     if !runs(cmd!(sh, "rustup --version")) {
-        return Err(format!("no target {triple}, no rustup to add it with: see https://rustup.rs"));
+        return Err(format!(
+            "no target {triple}, no rustup to add it with: https://rustup.rs; {debian}"
+        ));
     }
-    cmd!(sh, "rustup target add {triple}")
-        .run()
-        .map_err(|_| format!("no target {triple}, and this failed: rustup target add {triple}"))
+    cmd!(sh, "rustup target add {triple}").run().map_err(|_| {
+        format!("no target {triple}, this failed: rustup target add {triple}; {debian}")
+    })
+}
+
+/// Makes sure that there is Miri, which is in the nightly toolchain alone.
+fn miri(sh: &Shell, install: bool) -> Result<(), String> {
+    let there = || runs(cmd!(sh, "cargo +nightly miri --version"));
+    let add = "rustup toolchain install nightly --component miri --component rust-src";
+    if !there() && install {
+        let _ = Cmd::run(&cmd!(sh, "rustup").args(add.split(' ').skip(1)));
+    }
+    if there() { Ok(()) } else { Err(format!("no Miri: {add}")) }
 }
 
 /// The program, and its first arguments, that is `env` run as root; `None` without apt-get or
@@ -78,6 +132,22 @@ fn env_as_root(sh: &Shell) -> Option<(&'static str, &'static [&'static str])> {
 }
 
 /// Whether a command is there and succeeds. Silent.
-fn runs(cmd: Cmd) -> bool {
+pub(crate) fn runs(cmd: Cmd) -> bool {
     cmd.quiet().ignore_stdout().ignore_stderr().run().is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn emulators_that_err_are_refused() {
+        let old = "qemu-s390x version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)\nCopyright";
+        let new = "qemu-s390x version 10.0.2 (Debian 1:10.0.2+ds-2+deb13u1)\nCopyright";
+        let error = is_right("s390x", old).expect_err("it is known to be wrong");
+        assert!(error.contains("7.2.22") && error.contains("8.1"), "{error}");
+        assert_eq!(is_right("s390x", new), Ok(()));
+        assert_eq!(is_right("x86_64", old), Ok(()));
+        assert_eq!(is_right("aarch64", ""), Ok(()));
+    }
 }

@@ -7,7 +7,7 @@ use rt_kernels::geom::{Aabb, Sphere, Triangle};
 use rt_kernels::{Accelerator, Brute, BuildError, Bvh, Primitives};
 use rt_scene::Scene;
 
-use crate::exec::{RayonJoin, pool};
+use crate::exec::{RayonJoin, on_threads};
 use crate::job::RenderError;
 
 /// What finds the hits. The picture does not depend on it.
@@ -71,12 +71,12 @@ impl World {
 
         let start = Instant::now();
         let primitives = primitives(&scene);
-        let accel = pool(threads)?.install(|| -> Result<Box<dyn Accelerator>, BuildError> {
+        let accel = on_threads(threads, || -> Result<Box<dyn Accelerator>, BuildError> {
             Ok(match kind {
                 AccelKind::Bvh => Box::new(Bvh::build(&primitives, &RayonJoin)?),
                 AccelKind::Brute => Box::new(Brute::build(&primitives)?),
             })
-        })?;
+        })??;
         Ok(World { scene, accel, scale, kind, bounds, build_time: start.elapsed() })
     }
 

@@ -5,6 +5,8 @@ pub mod scalar;
 
 #[cfg(target_arch = "aarch64")]
 mod aarch64;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod wasm32;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod x86;
 
@@ -13,8 +15,10 @@ pub(crate) mod tokens {
     #[cfg(target_arch = "aarch64")]
     pub use super::aarch64::Neon;
     pub use super::scalar::Scalar;
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    pub use super::wasm32::Simd128;
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    pub use super::x86::{Avx2, Sse2, Sse41};
+    pub use super::x86::{Avx2, Avx512, Sse2, Sse41};
 }
 
 /// The types of the best level that the build guarantees.
@@ -24,9 +28,16 @@ pub(crate) mod native {
 
     #[cfg(target_arch = "aarch64")]
     type Best = super::aarch64::Neon;
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    type Best = super::wasm32::Simd128;
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     type Best = super::x86::Best;
-    #[cfg(not(any(target_arch = "aarch64", target_arch = "x86", target_arch = "x86_64")))]
+    #[cfg(not(any(
+        target_arch = "aarch64",
+        all(target_arch = "wasm32", target_feature = "simd128"),
+        target_arch = "x86",
+        target_arch = "x86_64"
+    )))]
     type Best = super::scalar::Scalar;
 
     /// Four lanes of `f32`, of the best level that the build guarantees.
@@ -56,7 +67,12 @@ pub(crate) mod native {
 }
 
 /// Runs intrinsics of the level whose token is at hand.
-#[cfg(any(target_arch = "aarch64", target_arch = "x86", target_arch = "x86_64"))]
+#[cfg(any(
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128"),
+    target_arch = "x86",
+    target_arch = "x86_64"
+))]
 macro_rules! proven {
     ($intrinsics:expr) => {{
         // SAFETY: the value or the argument of the surrounding function holds its level's token,
@@ -102,5 +118,12 @@ macro_rules! token {
     };
 }
 
+#[cfg(any(
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128"),
+    target_arch = "x86",
+    target_arch = "x86_64"
+))]
+use proven;
 #[cfg(any(target_arch = "aarch64", target_arch = "x86", target_arch = "x86_64"))]
-use {proven, token};
+use token;

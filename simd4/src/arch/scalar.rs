@@ -109,7 +109,7 @@ impl<T, const N: usize> Sealed for Vector<T, N> {}
 impl<const N: usize> Sealed for Mask<N> {}
 
 #[inline(always)]
-fn map<A: Copy, R: Copy + Send + Sync + 'static, const N: usize>(
+fn map<A: Copy, R: Copy + Default + Send + Sync + 'static, const N: usize>(
     a: [A; N],
     f: impl Fn(A) -> R,
 ) -> [R; N] {
@@ -120,7 +120,7 @@ fn map<A: Copy, R: Copy + Send + Sync + 'static, const N: usize>(
 }
 
 #[inline(always)]
-fn map2<A: Copy, R: Copy + Send + Sync + 'static, const N: usize>(
+fn map2<A: Copy, R: Copy + Default + Send + Sync + 'static, const N: usize>(
     a: [A; N],
     b: [A; N],
     f: impl Fn(A, A) -> R,

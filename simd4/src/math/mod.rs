@@ -1,5 +1,6 @@
 //! What is built of the operations, for any lanes.
 
+pub(crate) mod elementary;
 mod transpose;
 mod vec3;
 

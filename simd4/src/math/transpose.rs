@@ -2,7 +2,7 @@
 
 use crate::Lanes;
 
-/// The columns of four rows of four lanes, by eight interleavings.
+/// The columns of four rows of four lanes, by eight moves of two registers each.
 ///
 /// ```
 /// use simd4::{f32x4, math, prelude::*};

@@ -51,15 +51,20 @@ pub trait LaneArray<T>:
     fn from_fn(lane: impl Fn(usize) -> T) -> Self;
 }
 
-impl<T: Copy + Send + Sync + 'static, const N: usize> LaneArray<T> for [T; N] {
+impl<T: Copy + Default + Send + Sync + 'static, const N: usize> LaneArray<T> for [T; N] {
     #[inline(always)]
     fn from_fn(lane: impl Fn(usize) -> T) -> Self {
-        let mut a = [lane(0); N];
-        let mut i = 1;
-        while i < N {
-            a[i] = lane(i);
-            i += 1;
+        const { assert!(N <= 16, "a vector has at most sixteen lanes") };
+        let mut a = [T::default(); N];
+        // Written out: a loop would first have to be unrolled before the array can be registers.
+        macro_rules! lanes {
+            ($($i:literal)*) => {$(
+                if $i < N {
+                    a[$i] = lane($i);
+                }
+            )*};
         }
+        lanes!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
         a
     }
 }

@@ -3,6 +3,7 @@
 use core::ops::{Div, DivAssign, Neg};
 
 use super::{Lanes, SimdI32, SimdU32, soft};
+use crate::math::elementary;
 
 /// Lanes of `f32`. Arithmetic is IEEE 754, rounded to nearest even, and never contracted.
 pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Output = Self> {
@@ -94,17 +95,17 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
     /// [`spec::min_num`](crate::spec::min_num): IEEE 754 `minimumNumber`.
     #[inline(always)]
     fn min_num(self, other: Self) -> Self {
-        let equal = Self::from_bits(self.to_bits() | other.to_bits());
         // A NaN in `other` loses here; one in `self` loses in `min`.
-        let least = Self::select(other.ne(other), self, self.min(other));
-        Self::select(self.eq(other), equal, least)
+        let least = Self::select(other.eq(other), self.min(other), self);
+        // Of equals both signs: only those of zeros differ.
+        Self::from_bits(least.to_bits() | self.to_bits().masked(self.eq(other)))
     }
     /// [`spec::max_num`](crate::spec::max_num): IEEE 754 `maximumNumber`.
     #[inline(always)]
     fn max_num(self, other: Self) -> Self {
-        let equal = Self::from_bits(self.to_bits() & other.to_bits());
-        let greatest = Self::select(other.ne(other), self, self.max(other));
-        Self::select(self.eq(other), equal, greatest)
+        let greatest = Self::select(other.eq(other), self.max(other), self);
+        let differ = Self::U32::splat(self.token(), u32::MAX).masked(self.ne(other));
+        Self::from_bits(greatest.to_bits() & (self.to_bits() | differ))
     }
 
     // Rounding
@@ -136,7 +137,7 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
     /// between levels, and:
     ///
     /// * ±0 gives ±∞ and ±∞ gives ±0; NaN gives NaN, and nothing else does;
-    /// * of a subnormal it may give ±∞, and where the quotient is subnormal, ±0.
+    /// * of a subnormal it may give ±∞, and where the quotient is 2^-126 or less, ±0.
     #[inline(always)]
     fn rcp_est(self) -> Self {
         self.rcp_fast()
@@ -159,6 +160,24 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
     #[inline(always)]
     fn rsqrt_fast(self) -> Self {
         Self::splat(self.token(), 1.0) / self.sqrt()
+    }
+
+    // Elementary functions, the same bits on every level
+
+    /// [`spec::exp2`](crate::spec::exp2): 2 to the power of each lane, to 1.11 ulp.
+    #[inline(always)]
+    fn exp2(self) -> Self {
+        elementary::exp2(self)
+    }
+    /// [`spec::log2`](crate::spec::log2): the logarithm to base 2, to 2.17 ulp.
+    #[inline(always)]
+    fn log2(self) -> Self {
+        elementary::log2(self)
+    }
+    /// [`spec::pow`](crate::spec::pow): each lane to the power of the other, to 4 ulp.
+    #[inline(always)]
+    fn pow(self, exponent: Self) -> Self {
+        elementary::pow(self, exponent)
     }
 
     // Conversions
@@ -191,6 +210,11 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
     #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         self.to_i32()
+    }
+    /// `floor().to_i32_fast()` in fewer instructions where there are such.
+    #[inline(always)]
+    fn floor_to_i32_fast(self) -> Self::I32 {
+        self.floor().to_i32_fast()
     }
     /// As [`SimdF32::to_u32`], for values that have a `u32`; of others the result may differ
     /// between levels.

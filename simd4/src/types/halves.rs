@@ -25,7 +25,7 @@ pub trait Join<T>: LaneArray<T> {
 
 macro_rules! join {
     ($half:literal + $other:literal) => {
-        impl<T: Copy + Send + Sync + 'static> Join<T> for [T; $half] {
+        impl<T: Copy + Default + Send + Sync + 'static> Join<T> for [T; $half] {
             type Joined = [T; $half + $other];
             #[inline(always)]
             fn join(low: Self, high: Self) -> Self::Joined {
@@ -107,6 +107,10 @@ where
         self.0.store(low);
         self.1.store(high);
     }
+    #[inline(always)]
+    fn load_prefix(s: Self::Simd, from: &[Self::Elem], fill: Self::Elem) -> Self {
+        super::load_prefix(s, from, fill)
+    }
 
     halved! {
         min(b);
@@ -117,6 +121,18 @@ where
     #[inline(always)]
     fn select(m: Self::Mask, a: Self, b: Self) -> Self {
         Halves(V::select(m.0, a.0, b.0), V::select(m.1, a.1, b.1))
+    }
+    #[inline(always)]
+    fn merge(m: Self::Mask, a: Self, b: Self) -> Self {
+        Halves(V::merge(m.0, a.0, b.0), V::merge(m.1, a.1, b.1))
+    }
+    #[inline(always)]
+    fn masked(self, m: Self::Mask) -> Self {
+        Halves(self.0.masked(m.0), self.1.masked(m.1))
+    }
+    #[inline(always)]
+    fn reverse(self) -> Self {
+        Halves(self.1.reverse(), self.0.reverse())
     }
     #[inline(always)]
     fn zip(self, other: Self) -> (Self, Self) {
@@ -131,6 +147,19 @@ where
     #[inline(always)]
     fn reduce<F: Fold>(self) -> Self::Elem {
         F::fold(self.0, self.1).reduce::<F>()
+    }
+    // A level may have its own way for one register.
+    #[inline(always)]
+    fn reduce_sum(self) -> Self::Elem {
+        (self.0 + self.1).reduce_sum()
+    }
+    #[inline(always)]
+    fn reduce_min(self) -> Self::Elem {
+        self.0.min(self.1).reduce_min()
+    }
+    #[inline(always)]
+    fn reduce_max(self) -> Self::Elem {
+        self.0.max(self.1).reduce_max()
     }
 }
 
@@ -204,6 +233,10 @@ where
     #[inline(always)]
     fn to_u32(self) -> Self::U32 {
         Halves(self.0.to_u32(), self.1.to_u32())
+    }
+    #[inline(always)]
+    fn floor_to_i32_fast(self) -> Self::I32 {
+        Halves(self.0.floor_to_i32_fast(), self.1.floor_to_i32_fast())
     }
     #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {

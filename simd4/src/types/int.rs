@@ -45,4 +45,11 @@ pub trait SimdI32: SimdInt<Elem = i32> + Neg<Output = Self> {
 }
 
 /// Lanes of `u32`. Arithmetic wraps.
-pub trait SimdU32: SimdInt<Elem = u32> {}
+pub trait SimdU32: SimdInt<Elem = u32> {
+    /// One lane of all, to go through as an index.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn index(self, lane: usize) -> usize {
+        self.to_array().as_ref()[lane] as usize
+    }
+}

@@ -75,8 +75,10 @@ pub trait SimdMask:
     /// The lowest lane that is true.
     #[inline(always)]
     fn first(self) -> Option<usize> {
-        let bits = self.bitmask();
-        (bits != 0).then_some(bits.trailing_zeros() as usize)
+        match self.bitmask() {
+            0 => None,
+            bits => Some(bits.trailing_zeros() as usize),
+        }
     }
 
     /// `self ? a : b`, lane by lane.

@@ -8,6 +8,7 @@ mod int;
 mod mask;
 pub(crate) mod reduce;
 mod seam;
+#[allow(dead_code, reason = "which of them are needed depends on the architecture")]
 pub(crate) mod soft;
 mod swizzle;
 
@@ -131,7 +132,19 @@ pub trait Lanes:
             return Self::load(s, from);
         }
         let mut a = Self::splat(s, fill).to_array();
-        a.as_mut()[..from.len()].copy_from_slice(from);
+        let n = from.len();
+        if Self::LANES > 4 && n > 3 {
+            copy_prefix(from, a.as_mut());
+        } else {
+            // So that the lanes of one register need not go through memory.
+            let last = if n & 1 == 1 { from[n - 1] } else { fill };
+            let lanes = a.as_mut();
+            if n & 2 == 2 {
+                (lanes[0], lanes[1], lanes[2]) = (from[0], from[1], last);
+            } else {
+                lanes[0] = last;
+            }
+        }
         Self::from_array(s, a)
     }
 
@@ -142,7 +155,17 @@ pub trait Lanes:
         if n >= Self::LANES {
             return self.store(to);
         }
-        to.copy_from_slice(&self.to_array().as_ref()[..n]);
+        let a = self.to_array();
+        let lanes = a.as_ref();
+        if Self::LANES > 4 && n > 3 {
+            return copy_prefix(&lanes[..n], to);
+        }
+        if n & 2 == 2 {
+            (to[0], to[1]) = (lanes[0], lanes[1]);
+        }
+        if n & 1 == 1 {
+            to[n - 1] = lanes[n - 1];
+        }
     }
 
     /// `mask ? from[lane] : fill`: only the elements of the mask's lanes are read.
@@ -151,6 +174,9 @@ pub trait Lanes:
     /// If the mask has a lane that the slice lacks.
     #[inline(always)]
     fn load_masked(s: Self::Simd, from: &[Self::Elem], mask: Self::Mask, fill: Self::Elem) -> Self {
+        if from.len() >= Self::LANES {
+            return Self::select(mask, Self::load(s, from), Self::splat(s, fill));
+        }
         let bits = mask.bitmask();
         Self::from_array(
             s,
@@ -167,6 +193,9 @@ pub trait Lanes:
     /// If the mask has a lane that the slice lacks.
     #[inline(always)]
     fn store_masked(self, to: &mut [Self::Elem], mask: Self::Mask) {
+        if to.len() >= Self::LANES {
+            return Self::merge(mask, self, Self::load(self.token(), to)).store(to);
+        }
         let (a, bits) = (self.to_array(), mask.bitmask());
         let mut i = 0;
         while i < Self::LANES {
@@ -186,12 +215,11 @@ pub trait Lanes:
         from: &[Self::Elem],
         index: I,
     ) -> Self {
-        let index_of = index.to_array();
         Self::from_array(
             index.token(),
             LaneArray::from_fn(
                 #[inline(always)]
-                |i| from[index_of.as_ref()[i] as usize],
+                |i| from[index.index(i)],
             ),
         )
     }
@@ -204,15 +232,32 @@ pub trait Lanes:
     #[inline(always)]
     fn compress_store(self, mask: Self::Mask, to: &mut [Self::Elem]) -> usize {
         let (a, bits) = (self.to_array(), mask.bitmask());
+        let count = bits.count_ones() as usize;
+        if to.len() <= Self::LANES {
+            let to = &mut to[..count];
+            let (mut i, mut n) = (0, 0);
+            while n < count {
+                if bits >> i & 1 == 1 {
+                    to[n] = a.as_ref()[i];
+                    n += 1;
+                }
+                i += 1;
+            }
+            return count;
+        }
+        // Without branches: every lane goes to where the mask's next one goes. What the last of
+        // them leaves behind the end is put right.
+        let to = &mut to[..=Self::LANES];
+        let behind = to[count];
         let (mut i, mut n) = (0, 0);
         while i < Self::LANES {
-            if bits >> i & 1 == 1 {
-                to[n] = a.as_ref()[i];
-                n += 1;
-            }
+            // It is not above i: this spares the check of bounds.
+            to[n % Self::LANES] = a.as_ref()[i];
+            n += (bits >> i & 1) as usize;
             i += 1;
         }
-        n
+        to[count] = behind;
+        count
     }
 
     // Least and greatest, comparisons
@@ -249,6 +294,20 @@ pub trait Lanes:
 
     /// `mask ? a : b`, lane by lane.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    /// The same, for storing where `b` was loaded.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn merge(mask: Self::Mask, a: Self, b: Self) -> Self {
+        Self::select(mask, a, b)
+    }
+
+    /// `mask ? self : 0`, lane by lane.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn masked(self, mask: Self::Mask) -> Self {
+        Self::select(mask, self, Self::splat(self.token(), Self::Elem::default()))
+    }
 
     // Moves
 
@@ -332,6 +391,13 @@ pub trait Lanes:
     #[doc(hidden)]
     fn reduce<F: reduce::Fold>(self) -> Self::Elem;
 
+    /// One lane of all, in every lane.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn fold_all<F: reduce::Fold>(self) -> Self {
+        Self::splat(self.token(), self.reduce::<F>())
+    }
+
     /// The sum of the lanes, added in the order of [`spec::reduce`](crate::spec::reduce).
     #[inline(always)]
     fn reduce_sum(self) -> Self::Elem {
@@ -364,8 +430,8 @@ pub trait Lanes:
     fn argmin(self, mask: Self::Mask) -> Option<(usize, Self::Elem)> {
         let allowed = mask & self.eq(self);
         let greatest = Self::splat(self.token(), Self::Elem::GREATEST);
-        let least = Self::select(allowed, self, greatest).reduce_min();
-        let lane = (allowed & self.eq(Self::splat(self.token(), least))).first()?;
+        let least = Self::select(allowed, self, greatest).fold_all::<reduce::Min>();
+        let lane = (allowed & self.eq(least)).first()?;
         Some((lane, self.lane(lane)))
     }
 
@@ -375,9 +441,22 @@ pub trait Lanes:
     fn argmax(self, mask: Self::Mask) -> Option<(usize, Self::Elem)> {
         let allowed = mask & self.eq(self);
         let least = Self::splat(self.token(), Self::Elem::LEAST);
-        let greatest = Self::select(allowed, self, least).reduce_max();
-        let lane = (allowed & self.eq(Self::splat(self.token(), greatest))).first()?;
+        let greatest = Self::select(allowed, self, least).fold_all::<reduce::Max>();
+        let lane = (allowed & self.eq(greatest)).first()?;
         Some((lane, self.lane(lane)))
+    }
+}
+
+/// Copies fewer elements than sixteen to the start of a slice: by fixed lengths, which need no
+/// call.
+#[inline(always)]
+fn copy_prefix<T: Copy>(from: &[T], to: &mut [T]) {
+    let mut at = 0;
+    for length in [8, 4, 2, 1] {
+        if from.len() & length != 0 {
+            to[at..at + length].copy_from_slice(&from[at..at + length]);
+            at += length;
+        }
     }
 }
 
@@ -393,6 +472,16 @@ fn pick<V: Lanes>(a: V, b: V, index: impl Fn(usize) -> usize) -> V {
         },
     );
     V::from_array(a.token(), lanes)
+}
+
+/// [`Lanes::load_prefix`] by halves: a register that is put together in memory would be read
+/// before it is all written.
+#[inline(always)]
+pub(crate) fn load_prefix<V: Wide>(s: V::Simd, from: &[V::Elem], fill: V::Elem) -> V {
+    match from.split_at_checked(V::LANES / 2) {
+        Some((low, high)) => V::concat(V::Half::load(s, low), V::Half::load_prefix(s, high, fill)),
+        None => V::concat(V::Half::load_prefix(s, from, fill), V::Half::splat(s, fill)),
+    }
 }
 
 /// A type of twice the lanes of another.

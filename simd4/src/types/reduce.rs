@@ -34,9 +34,15 @@ folds! {
 }
 
 /// Four lanes as one, by two folds of a vector with itself.
+#[allow(dead_code, reason = "unused where there are no registers")]
 #[inline(always)]
 pub(crate) fn four<F: Fold, V: Lanes>(v: V) -> V::Elem {
+    four_all::<F, V>(v).lane(0)
+}
+
+/// The same in every lane.
+#[inline(always)]
+pub(crate) fn four_all<F: Fold, V: Lanes>(v: V) -> V {
     let v = F::fold(v, crate::swizzle!(v, [2, 3, 0, 1]));
-    let v = F::fold(v, crate::swizzle!(v, [1, 0, 3, 2]));
-    v.lane(0)
+    F::fold(v, crate::swizzle!(v, [1, 0, 3, 2]))
 }

@@ -5,32 +5,41 @@ use super::{Lanes, SimdF32, SimdI32, SimdInt};
 /// [`spec::round_ties_even`](crate::spec::round_ties_even).
 #[inline(always)]
 pub(crate) fn round_ties_even<V: SimdF32>(x: V) -> V {
-    // From 2^23 on there are no fractions; adding it leaves them to the addition's rounding.
-    let magic = V::splat(x.token(), 8_388_608.0);
+    // From 2^23 on there are no fractions; adding it leaves them to the addition's rounding. What
+    // has none, and NaN, gets 0 added.
     let magnitude = x.abs();
-    let rounded = ((magnitude + magic) - magic).copysign(x);
-    V::select(magnitude.lt(magic), rounded, x)
+    let magic = V::splat(x.token(), 8_388_608.0);
+    let magic = magic.masked(magnitude.lt(magic));
+    with_sign((magnitude + magic) - magic, x)
 }
 
 /// [`spec::floor`](crate::spec::floor).
 #[inline(always)]
 pub(crate) fn floor<V: SimdF32>(x: V) -> V {
-    let (zero, one) = (V::splat(x.token(), 0.0), V::splat(x.token(), 1.0));
     let rounded = round_ties_even(x);
     // Subtracting 0 keeps the sign of −0.
-    rounded - V::select(rounded.gt(x), one, zero)
+    rounded - V::splat(x.token(), 1.0).masked(rounded.gt(x))
 }
 
 /// [`spec::ceil`](crate::spec::ceil).
 #[inline(always)]
 pub(crate) fn ceil<V: SimdF32>(x: V) -> V {
-    -floor(-x)
+    let rounded = round_ties_even(x);
+    with_sign(rounded + V::splat(x.token(), 1.0).masked(rounded.lt(x)), x)
 }
 
 /// [`spec::trunc`](crate::spec::trunc).
 #[inline(always)]
 pub(crate) fn trunc<V: SimdF32>(x: V) -> V {
-    floor(x.abs()).copysign(x)
+    let rounded = round_ties_even(x.abs());
+    with_sign(rounded - V::splat(x.token(), 1.0).masked(rounded.gt(x.abs())), x)
+}
+
+/// A value that is not of the opposite sign, or a zero, with the sign of another.
+#[inline(always)]
+fn with_sign<V: SimdF32>(x: V, sign: V) -> V {
+    let sign_bit = V::U32::splat(x.token(), 1 << 31);
+    V::from_bits(x.to_bits() | sign.to_bits() & sign_bit)
 }
 
 /// About `1 / x` by one Newton step from an estimate.
@@ -39,19 +48,23 @@ pub(crate) fn rcp_step<V: SimdF32>(x: V, estimate: V) -> V {
     let one = V::splat(x.token(), 1.0);
     let error = x.nmul_add_fast(estimate, one);
     let better = estimate.mul_add_fast(error, estimate);
-    // The error is NaN where one of 0 and ∞ is the estimate for the other, and −∞ where a
-    // subnormal's is ∞: there the estimate stands.
-    V::select(error.gt(-one), better, estimate)
+    // Where 0 or ∞ is the estimate the step gives NaN: there the estimate stands.
+    V::select(better.eq(better), better, estimate)
 }
 
 /// About `1 / x.sqrt()` by one Newton step from an estimate.
 #[inline(always)]
 pub(crate) fn rsqrt_step<V: SimdF32>(x: V, estimate: V) -> V {
     let half = V::splat(x.token(), 0.5);
-    let error = (x * estimate * half).nmul_add_fast(estimate, half);
-    let better = estimate.mul_add_fast(error, estimate);
-    V::select(error.gt(-half), better, estimate)
+    let halved = estimate * half;
+    let error = (x * halved).nmul_add_fast(estimate, half);
+    // Where 0 or ∞ is the estimate the step gives NaN, and `max` its other operand: the estimate,
+    // which half of it is too. Elsewhere half of it is the lesser.
+    estimate.mul_add_fast(error, estimate).max(halved)
 }
+
+/// 2^39 + 2^23, as [`from_u32`] needs it.
+pub(crate) const TWO_39_AND_23: f32 = 549_764_202_496.0;
 
 /// The nearest `f32` to each integer, ties to even.
 #[inline(always)]
@@ -61,7 +74,7 @@ pub(crate) fn from_u32<V: SimdF32>(u: V::U32) -> V {
     let low = V::from_bits(u & V::U32::splat(s, 0xffff) | V::U32::splat(s, 0x4b00_0000));
     let high = V::from_bits(u.shr(16) | V::U32::splat(s, 0x5300_0000));
     // Less 2^39 + 2^23, exactly; the sum is then the one rounding.
-    (high - V::from_bits(V::U32::splat(s, 0x5300_0080))) + low
+    (high - V::splat(s, TWO_39_AND_23)) + low
 }
 
 /// The integer toward zero, or the nearest that there is; 0 for NaN.

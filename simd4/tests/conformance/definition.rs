@@ -6,7 +6,8 @@ use crate::numbers::same;
 use crate::values;
 
 fn agrees(name: &str, ours: fn(f32) -> f32, theirs: fn(f32) -> f32) {
-    let strided = (0..=u32::MAX).step_by(9973).map(f32::from_bits);
+    let step = if cfg!(miri) { 9_973_001 } else { 9973 };
+    let strided = (0..=u32::MAX).step_by(step).map(f32::from_bits);
     for x in strided.chain(values::floats()) {
         assert!(same(ours(x), theirs(x)), "{name}({x:e}) = {:e}, not {:e}", ours(x), theirs(x));
     }

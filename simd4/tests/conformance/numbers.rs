@@ -33,7 +33,7 @@ pub(crate) fn in_lanes<V: Lanes, const K: usize>(
     }
 }
 
-pub(crate) fn float_unary<V: SimdF32>() -> [Unary<V, f32>; 8] {
+fn float_unary<V: SimdF32>() -> [Unary<V, f32>; 10] {
     [
         ("neg", |a| -a, |a| -a),
         ("abs", V::abs, spec::abs),
@@ -42,11 +42,13 @@ pub(crate) fn float_unary<V: SimdF32>() -> [Unary<V, f32>; 8] {
         ("ceil", V::ceil, spec::ceil),
         ("trunc", V::trunc, spec::trunc),
         ("round_ties_even", V::round_ties_even, spec::round_ties_even),
+        ("exp2", V::exp2, spec::exp2),
+        ("log2", V::log2, spec::log2),
         ("bits", |a| V::from_bits(a.to_bits()), |a| a),
     ]
 }
 
-fn float_binary<V: SimdF32>() -> [Binary<V, f32>; 9] {
+fn float_binary<V: SimdF32>() -> [Binary<V, f32>; 10] {
     [
         ("+", |a, b| a + b, |a, b| a + b),
         ("-", |a, b| a - b, |a, b| a - b),
@@ -57,6 +59,7 @@ fn float_binary<V: SimdF32>() -> [Binary<V, f32>; 9] {
         ("min_num", V::min_num, spec::min_num),
         ("max_num", V::max_num, spec::max_num),
         ("copysign", V::copysign, spec::copysign),
+        ("pow", V::pow, spec::pow),
     ]
 }
 
@@ -148,11 +151,13 @@ pub(crate) fn to_ints<V: SimdF32>(s: V::Simd, floats: &[f32]) {
     in_lanes::<V, 1>(s, floats.iter().map(|&x| [x]), |[x], lanes| {
         let (i32s, u32s) = (x.to_i32().to_array(), x.to_u32().to_array());
         let (fast_i32s, fast_u32s) = (x.to_i32_fast().to_array(), x.to_u32_fast().to_array());
+        let floors = x.floor_to_i32_fast().to_array();
         for (i, &[x]) in lanes.iter().enumerate() {
             assert_eq!(i32s.as_ref()[i], x as i32, "{x:e} as i32");
             assert_eq!(u32s.as_ref()[i], x as u32, "{x:e} as u32");
             if (-2147483648.0..2147483648.0).contains(&x) {
                 assert_eq!(fast_i32s.as_ref()[i], x as i32, "{x:e} as i32, fast");
+                assert_eq!(floors.as_ref()[i], spec::floor(x) as i32, "floor of {x:e}, fast");
             }
             if x > -1.0 && x < 4294967296.0 {
                 assert_eq!(fast_u32s.as_ref()[i], x as u32, "{x:e} as u32, fast");

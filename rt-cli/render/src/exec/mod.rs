@@ -7,6 +7,8 @@ pub(crate) use tally::Tally;
 pub use tally::{KindReport, Report};
 pub(crate) use tile::TileJob;
 
+use std::error::Error;
+use std::io;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
@@ -68,9 +70,9 @@ pub fn render(
         *total.lock().expect("no thread panics while it adds") += tally;
         progress.tiles(done.fetch_add(1, Ordering::Relaxed) + 1, tiles.len());
     };
-    pool(job.threads)?.install(|| {
+    on_threads(job.threads, || {
         tiles.par_iter().for_each_init(Default::default, one);
-    });
+    })?;
 
     let film = film.into_inner().expect("all threads are done");
     let tally = total.into_inner().expect("all threads are done");
@@ -88,12 +90,23 @@ pub(crate) fn camera(world: &World, job: &Job) -> Result<Pinhole, RenderError> {
         .ok_or(RenderError::View("eye and target coincide, or up is along the line of sight"))
 }
 
-/// Threads of our own, so that their number is what was asked for.
-pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, RenderError> {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|why| RenderError::Threads { threads, why: why.to_string() })
+/// Does the work on threads of its own, so that their number is what was asked for. Where there are
+/// none, as in WebAssembly, the caller does it alone.
+pub(crate) fn on_threads<R: Send>(
+    threads: usize,
+    work: impl FnOnce() -> R + Send,
+) -> Result<R, RenderError> {
+    match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+        Ok(pool) => Ok(pool.install(work)),
+        Err(why) if is_unsupported(&why) => Ok(work()),
+        Err(why) => Err(RenderError::Threads { threads, why: why.to_string() }),
+    }
+}
+
+/// Whether the platform has no threads at all.
+fn is_unsupported(why: &rayon::ThreadPoolBuildError) -> bool {
+    let cause = why.source().and_then(|cause| cause.downcast_ref::<io::Error>());
+    cause.is_some_and(|cause| cause.kind() == io::ErrorKind::Unsupported)
 }
 
 /// A builder's halves on the threads of the pool that it runs in.

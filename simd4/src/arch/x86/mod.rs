@@ -1,13 +1,17 @@
-//! SSE2, SSE4.1 and AVX2. The 128-bit types are one text for all three (`xmm`); what differs
-//! between the levels stands in the level's own file.
+//! SSE2, SSE4.1, AVX2 and AVX-512. The types of each width are one text for all levels that have
+//! such registers (`xmm`, `ymm`, `zmm`); what differs between the levels stands in the level's own
+//! file.
 
 mod avx2;
+mod avx512;
 mod sse2;
 mod sse41;
 mod xmm;
 mod ymm;
+mod zmm;
 
 pub use avx2::Avx2;
+pub use avx512::Avx512;
 pub use sse2::Sse2;
 pub use sse41::Sse41;
 
@@ -25,7 +29,22 @@ pub(super) type Best = best::Best;
     target_feature = "movbe"
 ))]
 mod best {
+    #[cfg(not(all(
+        target_feature = "avx512f",
+        target_feature = "avx512bw",
+        target_feature = "avx512cd",
+        target_feature = "avx512dq",
+        target_feature = "avx512vl"
+    )))]
     pub(in super::super) use super::Avx2 as Best;
+    #[cfg(all(
+        target_feature = "avx512f",
+        target_feature = "avx512bw",
+        target_feature = "avx512cd",
+        target_feature = "avx512dq",
+        target_feature = "avx512vl"
+    ))]
+    pub(in super::super) use super::Avx512 as Best;
 }
 #[cfg(not(all(
     target_feature = "avx2",

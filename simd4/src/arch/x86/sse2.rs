@@ -99,6 +99,26 @@ impl Xmm for Sse2 {
     }
     #[inline(always)]
     fn trunc(self, x: xmm::f32x4<Self>) -> xmm::f32x4<Self> {
-        soft::trunc(x)
+        proven!({
+            // From 2^23 on there are no fractions: all bits stay, below it only the sign.
+            let sign = _mm_set1_ps(-0.0);
+            let small = _mm_cmplt_ps(_mm_andnot_ps(sign, x.0), _mm_set1_ps(8_388_608.0));
+            let integer = _mm_and_ps(_mm_cvtepi32_ps(_mm_cvttps_epi32(x.0)), small);
+            let kept = _mm_andnot_ps(_mm_andnot_ps(sign, small), x.0);
+            xmm::f32x4(_mm_or_ps(integer, kept), self)
+        })
+    }
+    #[inline(always)]
+    fn floor_to_i32_fast(self, x: xmm::f32x4<Self>) -> xmm::i32x4<Self> {
+        proven!({
+            // Toward zero, and one less (all ones) where that is above.
+            let integer = _mm_cvttps_epi32(x.0);
+            let above = _mm_castps_si128(_mm_cmplt_ps(x.0, _mm_cvtepi32_ps(integer)));
+            xmm::i32x4(_mm_add_epi32(integer, above), self)
+        })
+    }
+    #[inline(always)]
+    fn u32_to_f32(self, u: xmm::u32x4<Self>) -> xmm::f32x4<Self> {
+        soft::from_u32(u)
     }
 }

@@ -18,9 +18,13 @@ pub trait Xmm: Simd {
     fn blend(self, m: __m128, a: __m128, b: __m128) -> __m128 {
         proven!(_mm_blendv_ps(b, a, m))
     }
+    /// By lanes and not by bytes: the compiler then knows what the comparison before it means.
     #[inline(always)]
     fn blend_i32(self, m: __m128i, a: __m128i, b: __m128i) -> __m128i {
-        proven!(_mm_blendv_epi8(b, a, m))
+        proven!({
+            let (m, a, b) = (_mm_castsi128_ps(m), _mm_castsi128_ps(a), _mm_castsi128_ps(b));
+            _mm_castps_si128(_mm_blendv_ps(b, a, m))
+        })
     }
     #[inline(always)]
     fn min_i32(self, a: __m128i, b: __m128i) -> __m128i {
@@ -57,6 +61,40 @@ pub trait Xmm: Simd {
     #[inline(always)]
     fn trunc(self, x: f32x4<Self>) -> f32x4<Self> {
         f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC }>(x.0)), self)
+    }
+    #[inline(always)]
+    fn floor_to_i32_fast(self, x: f32x4<Self>) -> i32x4<Self> {
+        x.floor().to_i32_fast()
+    }
+    /// As in `soft`, the halves put beside the high words of the floats.
+    #[inline(always)]
+    fn u32_to_f32(self, u: u32x4<Self>) -> f32x4<Self> {
+        proven!({
+            let low = _mm_blend_epi16::<0xaa>(u.0, _mm_set1_epi32(0x4b00_0000));
+            let high = _mm_srli_epi32::<16>(u.0);
+            let high = _mm_blend_epi16::<0xaa>(high, _mm_set1_epi32(0x5300_0000));
+            let high = _mm_sub_ps(_mm_castsi128_ps(high), _mm_set1_ps(soft::TWO_39_AND_23));
+            f32x4(_mm_add_ps(high, _mm_castsi128_ps(low)), self)
+        })
+    }
+    #[inline(always)]
+    fn f32_to_u32(self, x: f32x4<Self>) -> u32x4<Self> {
+        proven!({
+            // What is not above zero, NaN too, becomes 0.
+            let x = f32x4(_mm_max_ps(x.0, _mm_setzero_ps()), self);
+            let great = _mm_cmpge_ps(x.0, _mm_set1_ps(4_294_967_296.0));
+            u32x4(_mm_or_si128(self.f32_to_u32_fast(x).0, _mm_castps_si128(great)), self)
+        })
+    }
+    #[inline(always)]
+    fn f32_to_u32_fast(self, x: f32x4<Self>) -> u32x4<Self> {
+        proven!({
+            // What does not fit an i32 becomes i32::MIN: to its bit comes the rest above 2^31.
+            let low = _mm_cvttps_epi32(x.0);
+            let rest = _mm_sub_ps(x.0, _mm_set1_ps(2_147_483_648.0));
+            let rest = _mm_and_si128(_mm_cvttps_epi32(rest), _mm_srai_epi32::<31>(low));
+            u32x4(_mm_or_si128(low, rest), self)
+        })
     }
 
     /// Whether [`Xmm::fused_mul_add`] is one instruction.
@@ -187,8 +225,34 @@ impl<L: Xmm> Lanes for f32x4<L> {
         f32x4(a.1.blend(m.0, a.0, b.0), a.1)
     }
     #[inline(always)]
+    fn masked(self, m: mask32x4<L>) -> Self {
+        f32x4(proven!(_mm_and_ps(m.0, self.0)), self.1)
+    }
+    #[inline(always)]
+    fn reverse(self) -> Self {
+        f32x4(proven!(_mm_shuffle_ps::<0b_00_01_10_11>(self.0, self.0)), self.1)
+    }
+    #[inline(always)]
+    fn zip(self, b: Self) -> (Self, Self) {
+        proven!((
+            f32x4(_mm_unpacklo_ps(self.0, b.0), self.1),
+            f32x4(_mm_unpackhi_ps(self.0, b.0), self.1),
+        ))
+    }
+    #[inline(always)]
+    fn unzip(self, b: Self) -> (Self, Self) {
+        proven!((
+            f32x4(_mm_shuffle_ps::<0b_10_00_10_00>(self.0, b.0), self.1),
+            f32x4(_mm_shuffle_ps::<0b_11_01_11_01>(self.0, b.0), self.1),
+        ))
+    }
+    #[inline(always)]
     fn reduce<F: Fold>(self) -> f32 {
         reduce::four::<F, Self>(self)
+    }
+    #[inline(always)]
+    fn fold_all<F: Fold>(self) -> Self {
+        reduce::four_all::<F, Self>(self)
     }
 }
 
@@ -200,7 +264,9 @@ operators! { [L: Xmm] f32x4<L> {
     Div div DivAssign div_assign |a, b| f32x4(proven!(_mm_div_ps(a.0, b.0)), a.1);
 }}
 unary_operator! { [L: Xmm] f32x4<L> {
-    Neg neg |a| f32x4(proven!(_mm_xor_ps(a.0, _mm_set1_ps(-0.0))), a.1)
+    // LLVM makes it an exclusive or, or a part of a fused operation; an exclusive or written here
+    // it does not take for a negation.
+    Neg neg |a| f32x4(proven!(_mm_sub_ps(_mm_set1_ps(-0.0), a.0)), a.1)
 }}
 
 impl<L: Xmm> SimdF32 for f32x4<L> {
@@ -266,6 +332,14 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         f32x4(proven!(_mm_cvtepi32_ps(i.0)), i.1)
     }
     #[inline(always)]
+    fn floor_to_i32_fast(self) -> Self::I32 {
+        self.1.floor_to_i32_fast(self)
+    }
+    #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        u.1.u32_to_f32(u)
+    }
+    #[inline(always)]
     fn to_i32(self) -> Self::I32 {
         proven!({
             // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
@@ -277,8 +351,16 @@ impl<L: Xmm> SimdF32 for f32x4<L> {
         })
     }
     #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        self.1.f32_to_u32(self)
+    }
+    #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x4(proven!(_mm_cvttps_epi32(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn to_u32_fast(self) -> Self::U32 {
+        self.1.f32_to_u32_fast(self)
     }
 }
 
@@ -337,8 +419,38 @@ macro_rules! integers {
                 $name(a.1.blend_i32(proven!(_mm_castps_si128(m.0)), a.0, b.0), a.1)
             }
             #[inline(always)]
+            fn masked(self, m: mask32x4<L>) -> Self {
+                $name(proven!(_mm_and_si128(_mm_castps_si128(m.0), self.0)), self.1)
+            }
+            #[inline(always)]
+            fn reverse(self) -> Self {
+                $name(proven!(_mm_shuffle_epi32::<0b_00_01_10_11>(self.0)), self.1)
+            }
+            #[inline(always)]
+            fn zip(self, b: Self) -> (Self, Self) {
+                proven!((
+                    $name(_mm_unpacklo_epi32(self.0, b.0), self.1),
+                    $name(_mm_unpackhi_epi32(self.0, b.0), self.1),
+                ))
+            }
+            #[inline(always)]
+            fn unzip(self, b: Self) -> (Self, Self) {
+                proven!({
+                    let (x, y) = (_mm_castsi128_ps(self.0), _mm_castsi128_ps(b.0));
+                    let (even, odd) = f32x4(x, self.1).unzip(f32x4(y, b.1));
+                    (
+                        $name(_mm_castps_si128(even.0), self.1),
+                        $name(_mm_castps_si128(odd.0), self.1),
+                    )
+                })
+            }
+            #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
                 reduce::four::<F, Self>(self)
+            }
+            #[inline(always)]
+            fn fold_all<F: Fold>(self) -> Self {
+                reduce::four_all::<F, Self>(self)
             }
         }
 
@@ -398,7 +510,18 @@ impl<L: Xmm> SimdI32 for i32x4<L> {
     }
 }
 
-impl<L: Xmm> SimdU32 for u32x4<L> {}
+impl<L: Xmm> SimdU32 for u32x4<L> {
+    /// Two lanes at a time come out of the register.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn index(self, lane: usize) -> usize {
+        let pair = proven!(match lane / 2 {
+            0 => _mm_cvtsi128_si64(self.0),
+            _ => _mm_cvtsi128_si64(_mm_unpackhi_epi64(self.0, self.0)),
+        });
+        (pair as u64 >> (32 * (lane % 2))) as u32 as usize
+    }
+}
 
 // mask
 
@@ -414,7 +537,7 @@ impl<L: Xmm> SimdMask for mask32x4<L> {
     }
     #[inline(always)]
     fn splat(s: L, b: bool) -> Self {
-        Self::from_array(s, [b; 4])
+        mask32x4(proven!(_mm_castsi128_ps(_mm_set1_epi32(-i32::from(b)))), s)
     }
     #[inline(always)]
     fn from_array(s: L, a: [bool; 4]) -> Self {

@@ -10,11 +10,57 @@ use super::super::proven;
 use super::xmm::{self, Xmm};
 use crate::simd::sealed::Sealed;
 use crate::types::reduce::Fold;
-use crate::types::{conversions, operators, soft, unary_operator};
+use crate::types::{self, conversions, operators, soft, unary_operator};
 use crate::{Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide};
 
-/// A level whose token proves AVX2 and FMA.
-pub trait Ymm: Xmm {}
+/// What differs between the levels of 256-bit registers; their token proves AVX2 and FMA. As
+/// provided: AVX2.
+pub trait Ymm: Xmm {
+    #[inline(always)]
+    fn blend(self, m: __m256, a: __m256, b: __m256) -> __m256 {
+        proven!(_mm256_blendv_ps(b, a, m))
+    }
+    /// As in `xmm`, by lanes and not by bytes.
+    #[inline(always)]
+    fn blend_i32(self, m: __m256i, a: __m256i, b: __m256i) -> __m256i {
+        proven!({
+            let (a, b) = (_mm256_castsi256_ps(a), _mm256_castsi256_ps(b));
+            _mm256_castps_si256(_mm256_blendv_ps(b, a, _mm256_castsi256_ps(m)))
+        })
+    }
+    /// As in `xmm`.
+    #[inline(always)]
+    fn u32_to_f32(self, u: u32x8<Self>) -> f32x8<Self> {
+        proven!({
+            let low = _mm256_blend_epi16::<0xaa>(u.0, _mm256_set1_epi32(0x4b00_0000));
+            let high = _mm256_srli_epi32::<16>(u.0);
+            let high = _mm256_blend_epi16::<0xaa>(high, _mm256_set1_epi32(0x5300_0000));
+            let high = _mm256_castsi256_ps(high);
+            let high = _mm256_sub_ps(high, _mm256_set1_ps(soft::TWO_39_AND_23));
+            f32x8(_mm256_add_ps(high, _mm256_castsi256_ps(low)), self)
+        })
+    }
+    /// As in `xmm`.
+    #[inline(always)]
+    fn f32_to_u32(self, x: f32x8<Self>) -> u32x8<Self> {
+        proven!({
+            let x = f32x8(_mm256_max_ps(x.0, _mm256_setzero_ps()), self);
+            let great = _mm256_cmp_ps::<_CMP_GE_OQ>(x.0, _mm256_set1_ps(4_294_967_296.0));
+            let fits = Ymm::f32_to_u32_fast(self, x).0;
+            u32x8(_mm256_or_si256(fits, _mm256_castps_si256(great)), self)
+        })
+    }
+    /// As in `xmm`.
+    #[inline(always)]
+    fn f32_to_u32_fast(self, x: f32x8<Self>) -> u32x8<Self> {
+        proven!({
+            let low = _mm256_cvttps_epi32(x.0);
+            let rest = _mm256_sub_ps(x.0, _mm256_set1_ps(2_147_483_648.0));
+            let rest = _mm256_and_si256(_mm256_cvttps_epi32(rest), _mm256_srai_epi32::<31>(low));
+            u32x8(_mm256_or_si256(low, rest), self)
+        })
+    }
+}
 
 /// Eight lanes of `f32`.
 #[allow(non_camel_case_types)]
@@ -67,6 +113,20 @@ impl<L: Ymm> Lanes for f32x8<L> {
     fn to_array(self) -> [f32; 8] {
         proven!(transmute::<__m256, [f32; 8]>(self.0))
     }
+    /// In the register: through memory it takes several times as long where the stack is such that
+    /// the register straddles two pages.
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f32 {
+        assert!(lane < 8, "lane {lane} of 8");
+        proven!({
+            let lane = _mm256_castsi128_si256(_mm_cvtsi32_si128(lane as i32));
+            _mm256_cvtss_f32(_mm256_permutevar8x32_ps(self.0, lane))
+        })
+    }
+    #[inline(always)]
+    fn load_prefix(s: L, from: &[f32], fill: f32) -> Self {
+        types::load_prefix(s, from, fill)
+    }
     #[inline(always)]
     fn min(self, b: Self) -> Self {
         f32x8(proven!(_mm256_min_ps(self.0, b.0)), self.1)
@@ -93,7 +153,46 @@ impl<L: Ymm> Lanes for f32x8<L> {
     }
     #[inline(always)]
     fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
-        f32x8(proven!(_mm256_blendv_ps(b.0, a.0, m.0)), a.1)
+        f32x8(Ymm::blend(a.1, m.0, a.0, b.0), a.1)
+    }
+    #[inline(always)]
+    fn masked(self, m: mask32x8<L>) -> Self {
+        f32x8(proven!(_mm256_and_ps(m.0, self.0)), self.1)
+    }
+    /// The compiler makes a masked store of a blend that is stored, which takes AMD before Zen 5
+    /// ten times as long as the two.
+    #[inline(always)]
+    fn merge(m: mask32x8<L>, a: Self, b: Self) -> Self {
+        f32x8(proven!(_mm256_or_ps(_mm256_and_ps(m.0, a.0), _mm256_andnot_ps(m.0, b.0))), a.1)
+    }
+    #[inline(always)]
+    fn reverse(self) -> Self {
+        proven!({
+            let order = _mm256_set_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+            f32x8(_mm256_permutevar8x32_ps(self.0, order), self.1)
+        })
+    }
+    #[inline(always)]
+    fn zip(self, b: Self) -> (Self, Self) {
+        proven!({
+            let low = _mm256_unpacklo_ps(self.0, b.0);
+            let high = _mm256_unpackhi_ps(self.0, b.0);
+            (
+                f32x8(_mm256_permute2f128_ps::<0x20>(low, high), self.1),
+                f32x8(_mm256_permute2f128_ps::<0x31>(low, high), self.1),
+            )
+        })
+    }
+    #[inline(always)]
+    fn unzip(self, b: Self) -> (Self, Self) {
+        proven!({
+            let even = _mm256_shuffle_ps::<0b_10_00_10_00>(self.0, b.0);
+            let odd = _mm256_shuffle_ps::<0b_11_01_11_01>(self.0, b.0);
+            // The pairs of both registers' lower halves come first.
+            let even = _mm256_permute4x64_pd::<0b_11_01_10_00>(_mm256_castps_pd(even));
+            let odd = _mm256_permute4x64_pd::<0b_11_01_10_00>(_mm256_castps_pd(odd));
+            (f32x8(_mm256_castpd_ps(even), self.1), f32x8(_mm256_castpd_ps(odd), self.1))
+        })
     }
     #[inline(always)]
     fn reduce<F: Fold>(self) -> f32 {
@@ -132,6 +231,29 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
     #[inline(always)]
     fn fused_mul_add(self, b: Self, c: Self) -> Self {
         f32x8(proven!(_mm256_fmadd_ps(self.0, b.0, c.0)), self.1)
+    }
+    /// Of equal operands, `min` gives the second: that is a negative `self` or a positive one's
+    /// partner. A NaN that is second is replaced, one that is first loses in `min`.
+    #[inline(always)]
+    fn min_num(self, b: Self) -> Self {
+        proven!({
+            let first = _mm256_blendv_ps(self.0, b.0, self.0);
+            let second = _mm256_blendv_ps(b.0, self.0, self.0);
+            let least = _mm256_min_ps(first, second);
+            let nan = _mm256_cmp_ps::<_CMP_UNORD_Q>(second, second);
+            f32x8(_mm256_blendv_ps(least, first, nan), self.1)
+        })
+    }
+    /// As [`SimdF32::min_num`], with the signs the other way round.
+    #[inline(always)]
+    fn max_num(self, b: Self) -> Self {
+        proven!({
+            let first = _mm256_blendv_ps(b.0, self.0, self.0);
+            let second = _mm256_blendv_ps(self.0, b.0, self.0);
+            let greatest = _mm256_max_ps(first, second);
+            let nan = _mm256_cmp_ps::<_CMP_UNORD_Q>(second, second);
+            f32x8(_mm256_blendv_ps(greatest, first, nan), self.1)
+        })
     }
     #[inline(always)]
     fn round_ties_even(self) -> Self {
@@ -190,6 +312,10 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
         f32x8(proven!(_mm256_cvtepi32_ps(i.0)), i.1)
     }
     #[inline(always)]
+    fn from_u32(u: Self::U32) -> Self {
+        Ymm::u32_to_f32(u.1, u)
+    }
+    #[inline(always)]
     fn to_i32(self) -> Self::I32 {
         proven!({
             // What does not fit becomes i32::MIN: of too great values all bits are to be turned,
@@ -201,8 +327,16 @@ impl<L: Ymm> SimdF32 for f32x8<L> {
         })
     }
     #[inline(always)]
+    fn to_u32(self) -> Self::U32 {
+        Ymm::f32_to_u32(self.1, self)
+    }
+    #[inline(always)]
     fn to_i32_fast(self) -> Self::I32 {
         i32x8(proven!(_mm256_cvttps_epi32(self.0)), self.1)
+    }
+    #[inline(always)]
+    fn to_u32_fast(self) -> Self::U32 {
+        Ymm::f32_to_u32_fast(self.1, self)
     }
 }
 
@@ -236,6 +370,18 @@ macro_rules! integers {
                 proven!(transmute::<__m256i, [$elem; 8]>(self.0))
             }
             #[inline(always)]
+            fn lane(self, lane: usize) -> $elem {
+                assert!(lane < 8, "lane {lane} of 8");
+                proven!({
+                    let lane = _mm256_castsi128_si256(_mm_cvtsi32_si128(lane as i32));
+                    _mm256_cvtsi256_si32(_mm256_permutevar8x32_epi32(self.0, lane)) as $elem
+                })
+            }
+            #[inline(always)]
+            fn load_prefix(s: L, from: &[$elem], fill: $elem) -> Self {
+                types::load_prefix(s, from, fill)
+            }
+            #[inline(always)]
             fn min(self, b: Self) -> Self {
                 $name(proven!($min(self.0, b.0)), self.1)
             }
@@ -258,7 +404,50 @@ macro_rules! integers {
             }
             #[inline(always)]
             fn select(m: mask32x8<L>, a: Self, b: Self) -> Self {
-                $name(proven!(_mm256_blendv_epi8(b.0, a.0, _mm256_castps_si256(m.0))), a.1)
+                $name(Ymm::blend_i32(a.1, proven!(_mm256_castps_si256(m.0)), a.0, b.0), a.1)
+            }
+            #[inline(always)]
+            fn masked(self, m: mask32x8<L>) -> Self {
+                $name(proven!(_mm256_and_si256(_mm256_castps_si256(m.0), self.0)), self.1)
+            }
+            #[inline(always)]
+            fn merge(m: mask32x8<L>, a: Self, b: Self) -> Self {
+                proven!({
+                    let m = _mm256_castps_si256(m.0);
+                    $name(
+                        _mm256_or_si256(_mm256_and_si256(m, a.0), _mm256_andnot_si256(m, b.0)),
+                        a.1,
+                    )
+                })
+            }
+            #[inline(always)]
+            fn reverse(self) -> Self {
+                proven!({
+                    let order = _mm256_set_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+                    $name(_mm256_permutevar8x32_epi32(self.0, order), self.1)
+                })
+            }
+            #[inline(always)]
+            fn zip(self, b: Self) -> (Self, Self) {
+                proven!({
+                    let low = _mm256_unpacklo_epi32(self.0, b.0);
+                    let high = _mm256_unpackhi_epi32(self.0, b.0);
+                    (
+                        $name(_mm256_permute2x128_si256::<0x20>(low, high), self.1),
+                        $name(_mm256_permute2x128_si256::<0x31>(low, high), self.1),
+                    )
+                })
+            }
+            #[inline(always)]
+            fn unzip(self, b: Self) -> (Self, Self) {
+                proven!({
+                    let (x, y) = (_mm256_castsi256_ps(self.0), _mm256_castsi256_ps(b.0));
+                    let (even, odd) = f32x8(x, self.1).unzip(f32x8(y, b.1));
+                    (
+                        $name(_mm256_castps_si256(even.0), self.1),
+                        $name(_mm256_castps_si256(odd.0), self.1),
+                    )
+                })
             }
             #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
@@ -367,7 +556,7 @@ impl<L: Ymm> SimdMask for mask32x8<L> {
     }
     #[inline(always)]
     fn splat(s: L, b: bool) -> Self {
-        Self::from_array(s, [b; 8])
+        mask32x8(proven!(_mm256_castsi256_ps(_mm256_set1_epi32(-i32::from(b)))), s)
     }
     #[inline(always)]
     fn from_array(s: L, a: [bool; 8]) -> Self {

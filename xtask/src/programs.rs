@@ -1,0 +1,226 @@
+//! The programs of a build: made once, run on every machine and at every level that they are for.
+
+use crate::cross::{cargo, runner};
+use crate::matrix::{Build, CORE, LONG, Run, Target, Tests};
+use crate::report::{Done, Tally};
+use serde_json::Value;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use xshell::{Cmd, Shell, cmd};
+
+/// What cargo has built.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(crate) struct Programs {
+    /// The programs that are made of tests.
+    pub(crate) tests: Vec<TestProgram>,
+    /// The example of `simd4` that lists the levels.
+    levels: Option<PathBuf>,
+}
+
+/// A program made of tests.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct TestProgram {
+    /// The folder of its package, in which it is to run.
+    folder: PathBuf,
+    /// Itself.
+    pub(crate) file: PathBuf,
+}
+
+impl Programs {
+    /// Builds all that any target with this build runs.
+    pub(crate) fn build(sh: &Shell, target: &Target) -> Result<Programs, String> {
+        let mut command = cargo(sh, target, "test").args(["--locked", "--no-run"]);
+        if target.build == Build::default() {
+            command = command.arg("--workspace");
+        } else {
+            // Nobody edits and builds again for these in a loop: in one go it is quicker.
+            command = command.env("CARGO_INCREMENTAL", "0");
+            command = match target.best {
+                // xtask is a tool of the host.
+                Tests::Workspace => command.args(["--workspace", "--exclude", "xtask"]),
+                _ => command.args(CORE.iter().flat_map(|name| ["-p", name])),
+            };
+        }
+        Programs::made_by(command)
+    }
+
+    /// Runs a cargo command that builds, and picks what it made out of its messages.
+    pub(crate) fn made_by(command: Cmd) -> Result<Programs, String> {
+        let command = command.args(["--quiet", "--message-format", "json-render-diagnostics"]);
+        let shown = command.to_string();
+        let messages = command.quiet().read().map_err(|_| format!("this failed: {shown}"))?;
+        Ok(Programs::of(&messages))
+    }
+
+    /// Picks the programs out of cargo's messages, one JSON object a line.
+    fn of(messages: &str) -> Programs {
+        let mut programs = Programs::default();
+        for line in messages.lines() {
+            let Ok(message) = serde_json::from_str::<Value>(line) else { continue };
+            let text = |value: &Value| value.as_str().map(PathBuf::from);
+            let Some(file) = text(&message["executable"]) else { continue };
+            if message["profile"]["test"] == true {
+                let manifest = text(&message["manifest_path"]).unwrap_or_default();
+                let folder = manifest.parent().unwrap_or(Path::new("")).to_owned();
+                programs.tests.push(TestProgram { folder, file });
+            } else if message["target"]["name"] == "levels" {
+                programs.levels = Some(file);
+            }
+        }
+        programs
+    }
+
+    /// The levels that a program finds on the target, if they are those that the table demands.
+    pub(crate) fn levels(&self, sh: &Shell, target: &Target) -> Result<Vec<String>, String> {
+        let said = if let Run::Miri = target.run {
+            let args = ["--quiet", "--locked", "-p", "simd4", "--example", "levels"];
+            let command = cargo(sh, target, "run").args(args).quiet();
+            command.env("MIRIFLAGS", MIRIFLAGS).env_remove("SIMD4_LEVEL").read()
+        } else {
+            let program = self.levels.as_ref().ok_or("there is no example `levels`")?;
+            let words = words(sh, target, program);
+            let (program, args) = words.split_first().expect("the program itself");
+            let command = cmd!(sh, "{program}").args(args).quiet().ignore_stderr();
+            command.env_remove("SIMD4_LEVEL").read()
+        };
+        target.levels.check(&said.map_err(|error| error.to_string())?)
+    }
+
+    /// Runs tests on the target; at a level other than the best if one is named.
+    pub(crate) fn run(
+        &self,
+        sh: &Shell,
+        target: &Target,
+        tests: Tests,
+        level: Option<&str>,
+    ) -> Done {
+        let mut commands: Vec<Command> = match (target.run, tests) {
+            (Run::Miri, _) => vec![miri_test(sh, target)],
+            _ => self.chosen(tests).map(|test| self.command(sh, target, test)).collect(),
+        };
+        if tests == Tests::Brief {
+            for command in &mut commands {
+                command.args(LONG.iter().flat_map(|name| ["--skip", name]));
+            }
+        }
+        if tests == Tests::Everything {
+            commands.push(cmd!(sh, "cargo test --quiet --locked --workspace --doc").into());
+        }
+        let mut sum = Tally::default();
+        let mut wrong = Vec::new();
+        for command in &mut commands {
+            // Each would change what the tests check.
+            command.env_remove("RT_BLESS").env_remove("SIMD4_LEVEL");
+            if let Some(level) = level {
+                command.env("SIMD4_LEVEL", level);
+            }
+            if let Some(cases) = target.cases(level.is_none()) {
+                command.env("PROPTEST_CASES", cases);
+            }
+            let (tally, failure) = test(command);
+            sum += tally;
+            wrong.extend(failure);
+        }
+        if sum.passed == 0 && wrong.is_empty() {
+            wrong.push("no test was run".to_owned());
+        }
+        if wrong.is_empty() { Done::passed(sum) } else { Done::failed(sum, wrong.join("; ")) }
+    }
+
+    /// The test programs that are asked for.
+    fn chosen(&self, tests: Tests) -> impl Iterator<Item = &TestProgram> {
+        let in_core_only = matches!(tests, Tests::Core | Tests::Brief);
+        let in_core = |test: &TestProgram| {
+            let packages = ["simd4", "rt-kernels", "tests"];
+            packages.iter().any(|package| test.folder.ends_with(package))
+        };
+        self.tests.iter().filter(move |test| !in_core_only || in_core(test))
+    }
+
+    /// What runs one of them on the target.
+    fn command(&self, sh: &Shell, target: &Target, test: &TestProgram) -> Command {
+        let words = words(sh, target, &test.file);
+        let (program, args) = words.split_first().expect("the program itself");
+        let mut command = Command::new(program);
+        command.args(args).arg("--quiet").current_dir(&test.folder);
+        if let Run::Node = target.run {
+            // There a panic is the end, and what it said would be lost.
+            command.arg("--nocapture");
+        }
+        // Where cargo would say so, and where the tests of a program learn how to start it.
+        command.env("CARGO_MANIFEST_DIR", &test.folder);
+        command.env("RT_RUNNER", runner(sh, target).join(" "));
+        command
+    }
+}
+
+/// proptest asks for the current folder.
+const MIRIFLAGS: &str = "-Zmiri-disable-isolation";
+
+/// Miri on the tests of conformance: it builds what it runs.
+fn miri_test(sh: &Shell, target: &Target) -> Command {
+    let args = ["--quiet", "--locked", "-p", "simd4", "--test", "conformance"];
+    cargo(sh, target, "test").args(args).env("MIRIFLAGS", MIRIFLAGS).into()
+}
+
+/// A program and what makes it run.
+fn words(sh: &Shell, target: &Target, program: &Path) -> Vec<OsString> {
+    let runner = runner(sh, target).into_iter().map(OsString::from);
+    runner.chain([program.into()]).collect()
+}
+
+/// Runs tests: the count, and what went wrong. Their output is shown only then.
+fn test(command: &mut Command) -> (Tally, Option<String>) {
+    let mut shown = format!("{command:?}");
+    for variable in ["SIMD4_LEVEL", "PROPTEST_CASES"] {
+        let set = command.get_envs().find(|(name, _)| *name == variable);
+        if let Some((_, Some(value))) = set
+            && !shown.contains(variable)
+        {
+            shown = format!("{variable}={value:?} {shown}");
+        }
+    }
+    match command.stdin(Stdio::null()).output() {
+        Err(error) => (Tally::default(), Some(format!("{error}: {shown}"))),
+        Ok(output) => {
+            let stdout = String::from_utf8_lossy(&output.stdout);
+            let mut tally = Tally::of(&stdout);
+            if output.status.success() {
+                return (tally, None);
+            }
+            println!("{stdout}{}", String::from_utf8_lossy(&output.stderr));
+            // A program that crashed counts nothing; "0 failed" would be a lie.
+            tally.failed = tally.failed.max(1);
+            (tally, Some(format!("{}: {shown}", output.status)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn programs_are_picked_out_of_the_messages() {
+        let messages = r#"
+{"reason":"compiler-artifact","manifest_path":"/w/simd4/Cargo.toml","target":{"name":"simd4"},"profile":{"test":false},"executable":null}
+{"reason":"compiler-artifact","manifest_path":"/w/simd4/Cargo.toml","target":{"name":"conformance"},"profile":{"test":true},"executable":"/w/target/c"}
+{"reason":"compiler-artifact","manifest_path":"/w/rt-cli/Cargo.toml","target":{"name":"cli"},"profile":{"test":true},"executable":"/w/target/cli"}
+{"reason":"compiler-artifact","manifest_path":"/w/rt-cli/Cargo.toml","target":{"name":"rt"},"profile":{"test":false},"executable":"/w/target/rt"}
+{"reason":"compiler-artifact","manifest_path":"/w/simd4/Cargo.toml","target":{"name":"levels"},"profile":{"test":false},"executable":"/w/target/levels"}
+{"reason":"build-finished","success":true}
+not JSON"#;
+        let programs = Programs::of(messages);
+        let test =
+            |folder: &str, file: &str| TestProgram { folder: folder.into(), file: file.into() };
+        assert_eq!(programs.levels, Some("/w/target/levels".into()));
+        assert_eq!(
+            programs.tests,
+            [test("/w/simd4", "/w/target/c"), test("/w/rt-cli", "/w/target/cli")]
+        );
+        let core: Vec<_> = programs.chosen(Tests::Core).collect();
+        assert_eq!(core, [&programs.tests[0]]);
+        assert_eq!(programs.chosen(Tests::Workspace).count(), 2);
+    }
+}
