@@ -9,7 +9,7 @@ pub mod scenes;
 pub mod strategies;
 pub mod trace;
 
-pub use rt_render::accuracy::{aim, mesh, random};
+pub use rt_kernels::reference::{aim, mesh, random};
 
 /// The number of cases of a property: `PROPTEST_CASES`, or 256.
 ///

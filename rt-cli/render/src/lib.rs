@@ -5,7 +5,6 @@
 //! [`AccelKind`], level, packet size and number of threads.
 #![forbid(unsafe_code)]
 
-pub mod accuracy;
 mod exec;
 mod film;
 mod fit;

@@ -1,11 +1,17 @@
-//! Oracles: what is exactly so, to judge kernels by. They share no code with them, take the `f32`
-//! they are given as exact numbers, and are as slow as that takes.
+//! What kernels are judged by.
+//!
+//! Oracles say what is exactly so: they share no code with the kernels, take the `f32` they are
+//! given as exact numbers, and are as slow as that takes. [`aim`], [`mesh`] and [`random`] make what
+//! kernels are shown.
 
 pub mod aabb;
+pub mod aim;
 mod ball;
 mod determinant;
 mod expansion;
+pub mod mesh;
 pub mod quadric;
+pub mod random;
 pub mod triangle;
 
 /// Half the distance from 1 to the next `f32`.

@@ -1,7 +1,7 @@
 //! Rays that are aimed at something.
 
 use glam::Vec3;
-use rt_kernels::Ray;
+use crate::Ray;
 
 use super::random::power;
 

@@ -10,9 +10,9 @@ use glam::{DVec3, Vec3};
 use rt_kernels::Ray;
 
 use super::{BATCH, Batch, Family, Kind, Place, Setting, UNIT};
-use crate::accuracy::aim;
-use crate::accuracy::mesh::Mesh;
-use crate::accuracy::random::Random;
+use rt_kernels::reference::aim;
+use rt_kernels::reference::mesh::Mesh;
+use rt_kernels::reference::random::Random;
 
 pub(super) const EDGE: Family = Family {
     name: "edge",

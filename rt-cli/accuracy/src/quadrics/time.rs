@@ -7,9 +7,9 @@ use rt_kernels::geom::{Curved, Sphere};
 use rt_kernels::{Hits, Ray, Rays};
 
 use super::measure::Subject;
-use crate::accuracy::Time;
-use crate::accuracy::random::Random;
-use crate::accuracy::time::race;
+use crate::Time;
+use rt_kernels::reference::random::Random;
+use crate::time::race;
 
 /// How many spheres and how many rays: what fits into the first level of a cache.
 const SPHERES: usize = 64;

@@ -4,8 +4,9 @@ use glam::{DVec3, Vec3};
 use rt_kernels::geom::{Curved, Quadric, Sphere};
 use rt_kernels::{Ray, Rays};
 
-use crate::accuracy::random::Random;
-use crate::accuracy::{BATCH, Place, Setting, aim};
+use rt_kernels::reference::random::Random;
+use crate::{BATCH, Place, Setting};
+use rt_kernels::reference::aim;
 
 /// Some rays, each of which is tested against one surface.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use rt_kernels::Ray;
 use rt_kernels::geom::Triangle;
 
 use super::{BATCH, Batch, Family, Kind, Place, UNIT};
-use crate::accuracy::random::Random;
+use rt_kernels::reference::random::Random;
 
 pub(super) const BAND: Family = Family {
     name: "band",

@@ -4,9 +4,22 @@ use glam::{DQuat, DVec3, Vec3};
 use rt_kernels::Ray;
 use rt_kernels::geom::Triangle;
 
-use super::Setting;
-use crate::accuracy::aim;
-use crate::accuracy::random::Random;
+use rt_kernels::reference::aim;
+use rt_kernels::reference::random::Random;
+
+/// Rays to a batch.
+pub const BATCH: usize = 64;
+
+/// What a family leaves open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setting {
+    /// The stream of random numbers.
+    pub seed: u64,
+    /// The size of meshes and triangles.
+    pub scale: f32,
+    /// How far from the world's origin they are.
+    pub offset: f32,
+}
 
 /// Where a batch is, how large, how turned, and how its corners and axes are ordered.
 #[derive(Clone, Debug)]
@@ -22,7 +35,7 @@ pub struct Place {
 }
 
 impl Place {
-    pub(in crate::accuracy) fn new(setting: &Setting, random: &mut Random) -> Place {
+    pub(crate) fn new(setting: &Setting, random: &mut Random) -> Place {
         let first = random.below(3);
         let second = (first + 1 + random.below(2)) % 3;
         let order = [first, second, 3 - first - second];
@@ -39,7 +52,7 @@ impl Place {
     /// The same without a rotation: what is exact in the unit world stays so, if the scale is a
     /// power of two.
     #[must_use]
-    pub(in crate::accuracy) fn upright(mut self) -> Place {
+    pub(crate) fn upright(mut self) -> Place {
         self.rotation = DQuat::IDENTITY;
         self.offset = (self.offset / self.scale).round() * self.scale;
         self.pace = 1.0;

@@ -5,8 +5,9 @@ use rt_kernels::Hits;
 use rt_kernels::reference::triangle::{Verdict, judge};
 use rt_kernels::tri::{TriangleTest, Way, catalogue};
 
-use super::families::{BATCH, Batch, Family, Kind, Setting};
-use super::tally::Tally;
+use super::families::{Batch, Family, Kind};
+use crate::fold::fold;
+use crate::{BATCH, Setting, Tally};
 
 /// A kernel and a way to run it.
 #[derive(Clone, Copy)]

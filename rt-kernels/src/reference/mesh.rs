@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 
 use glam::{DVec3, Vec3};
-use rt_kernels::Primitives;
-use rt_kernels::geom::Triangle;
+use crate::Primitives;
+use crate::geom::Triangle;
 
 /// Triangles by the indices of their corners.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rt_kernels::Ray;
 
 use super::{BATCH, Batch, Family, Kind, Place, UNIT};
-use crate::accuracy::random::Random;
+use rt_kernels::reference::random::Random;
 
 pub(super) const EXACT: Family = Family {
     name: "grid",

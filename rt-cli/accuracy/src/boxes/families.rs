@@ -8,8 +8,9 @@ use glam::{DVec3, Vec3};
 use rt_kernels::geom::Aabb;
 use rt_kernels::{Ray, Rays};
 
-use crate::accuracy::random::{Random, power};
-use crate::accuracy::{BATCH, Place, Setting, aim};
+use rt_kernels::reference::random::{Random, power};
+use crate::{BATCH, Place, Setting};
+use rt_kernels::reference::aim;
 
 /// Some rays, each of which is tested against one box.
 #[derive(Clone, Debug)]

@@ -7,8 +7,8 @@ use rt_kernels::reference::ulps;
 use rt_kernels::tri::Way;
 
 use super::families::{Batch, Family};
-use crate::accuracy::fold::fold;
-use crate::accuracy::{BATCH, Setting, Tally};
+use crate::fold::fold;
+use crate::{BATCH, Setting, Tally};
 
 /// A kernel and a way to run it.
 #[derive(Clone, Copy)]

@@ -8,9 +8,9 @@ use rt_kernels::slab::{BoxSet, Crossings};
 use rt_kernels::{Ray, Rays};
 
 use super::measure::Subject;
-use crate::accuracy::Time;
-use crate::accuracy::random::Random;
-use crate::accuracy::time::race;
+use crate::Time;
+use rt_kernels::reference::random::Random;
+use crate::time::race;
 
 /// How many boxes and how many rays: what fits into the first level of a cache.
 const BOXES: usize = 64;

@@ -7,28 +7,13 @@
 
 mod closed;
 mod grid;
-mod place;
 mod single;
 
 use rt_kernels::Rays;
 use rt_kernels::geom::Triangle;
 
-use super::random::Random;
-pub use place::Place;
-
-/// Rays to a batch.
-pub const BATCH: usize = 64;
-
-/// What a family leaves open.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Setting {
-    /// The stream of random numbers.
-    pub seed: u64,
-    /// The size of meshes and triangles.
-    pub scale: f32,
-    /// How far from the world's origin they are.
-    pub offset: f32,
-}
+use rt_kernels::reference::random::Random;
+use crate::{BATCH, Place, Setting};
 
 /// Some rays, each of which is tested against each of some triangles.
 #[derive(Clone, Debug)]
