@@ -1,8 +1,11 @@
 //! From a batch of rays to its hits: the one place where a level and a packet size are chosen.
 
+use std::marker::PhantomData;
+
 use simd4::{Level, LevelError, Simd, SimdF32, dispatch, scalar};
 
 use crate::packet::{Any, Closest, Frame, Hits, Packet, Query, Rays};
+use crate::tri::{Method, TriangleKernel, with_kernel};
 use crate::{Brute, Bvh, Stats};
 
 /// How many rays a packet has. The hits are the same for all.
@@ -69,8 +72,9 @@ pub trait Accelerator: Send + Sync {
 
 /// The traversal of one packet, which makes an [`Accelerator`].
 pub(crate) trait Traverse: Send + Sync {
-    /// Hands every primitive that the packet may hit to its kernel.
-    fn traverse<V: SimdF32, F: Frame<V>, Q: Query<V>>(
+    /// Hands every primitive that the packet may hit to its kernel, triangles to `K`: that of the
+    /// [method](Traverse::method).
+    fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
         &self,
         s: V::Simd,
         packet: &Packet<V>,
@@ -78,6 +82,9 @@ pub(crate) trait Traverse: Send + Sync {
         query: &mut Q,
         stats: &mut Stats,
     );
+
+    /// The triangle test that it was built for.
+    fn method(&self) -> Method;
 
     /// See [`Accelerator::bytes`].
     fn bytes(&self) -> usize;
@@ -89,13 +96,17 @@ macro_rules! accelerator {
         impl Accelerator for $Type {
             fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats) {
                 hits.resize(rays.len());
-                run(exec, rays, &mut ClosestOf(self, hits), stats);
+                with_kernel!(Traverse::method(self), K => {
+                    run(exec, rays, &mut ClosestOf::<_, K>(self, hits, PhantomData), stats);
+                });
             }
 
             fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats) {
                 found.clear();
                 found.resize(rays.len(), false);
-                run(exec, rays, &mut AnyOf(self, found), stats);
+                with_kernel!(Traverse::method(self), K => {
+                    run(exec, rays, &mut AnyOf::<_, K>(self, found, PhantomData), stats);
+                });
             }
 
             fn bytes(&self) -> usize {
@@ -119,9 +130,9 @@ trait Batch {
     );
 }
 
-struct ClosestOf<'a, T>(&'a T, &'a mut Hits);
+struct ClosestOf<'a, T, K>(&'a T, &'a mut Hits, PhantomData<K>);
 
-impl<T: Traverse> Batch for ClosestOf<'_, T> {
+impl<T: Traverse, K: TriangleKernel> Batch for ClosestOf<'_, T, K> {
     #[inline(always)]
     fn packet<V: SimdF32>(
         &mut self,
@@ -131,14 +142,14 @@ impl<T: Traverse> Batch for ClosestOf<'_, T> {
         stats: &mut Stats,
     ) {
         let mut query = Closest::new(s, packet);
-        in_frame(self.0, s, packet, &mut query, stats);
+        in_frame::<K, V, T, _>(self.0, s, packet, &mut query, stats);
         query.store(self.1, first);
     }
 }
 
-struct AnyOf<'a, T>(&'a T, &'a mut [bool]);
+struct AnyOf<'a, T, K>(&'a T, &'a mut [bool], PhantomData<K>);
 
-impl<T: Traverse> Batch for AnyOf<'_, T> {
+impl<T: Traverse, K: TriangleKernel> Batch for AnyOf<'_, T, K> {
     #[inline(always)]
     fn packet<V: SimdF32>(
         &mut self,
@@ -148,13 +159,13 @@ impl<T: Traverse> Batch for AnyOf<'_, T> {
         stats: &mut Stats,
     ) {
         let mut query = Any::new(s, packet);
-        in_frame(self.0, s, packet, &mut query, stats);
+        in_frame::<K, V, T, _>(self.0, s, packet, &mut query, stats);
         query.store(self.1, first);
     }
 }
 
 #[inline(always)]
-fn in_frame<V: SimdF32, T: Traverse, Q: Query<V>>(
+fn in_frame<K: TriangleKernel, V: SimdF32, T: Traverse, Q: Query<V>>(
     traverse: &T,
     s: V::Simd,
     packet: &Packet<V>,
@@ -162,8 +173,8 @@ fn in_frame<V: SimdF32, T: Traverse, Q: Query<V>>(
     stats: &mut Stats,
 ) {
     match packet.frame(s) {
-        Ok(frame) => traverse.traverse(s, packet, &frame, query, stats),
-        Err(frame) => traverse.traverse(s, packet, &frame, query, stats),
+        Ok(frame) => traverse.traverse::<K, V, _, Q>(s, packet, &frame, query, stats),
+        Err(frame) => traverse.traverse::<K, V, _, Q>(s, packet, &frame, query, stats),
     }
 }
 

@@ -19,6 +19,7 @@ pub use film::Film;
 pub use fit::fitted_view;
 pub use integrate::{Integrator, RayKind};
 pub use job::{Job, RenderError, check_size};
+pub use rt_kernels::tri::Method;
 pub use rt_kernels::{Exec, PacketSize};
 pub use simd4::{Level, LevelError};
 pub use world::{AccelKind, World};
