@@ -228,6 +228,9 @@ pub(crate) struct BenchArgs {
     /// Width and height in pixels.
     #[arg(short, long, value_name = "WxH", value_parser = size, default_value = "512x512")]
     pub(crate) size: (u32, u32),
+    /// Compare the triangle tests of --kernel at the best level, instead of levels.
+    #[arg(long)]
+    pub(crate) kernels: bool,
     /// How often everything is timed.
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) rounds: u16,

@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use simd4::{Level, LevelError, Simd, SimdF32, dispatch, scalar};
+use simd4::{Lanes, Level, LevelError, Simd, SimdF32, dispatch, scalar};
 
 use crate::packet::{Any, Closest, Frame, Hits, Packet, Query, Rays};
 use crate::tri::{Method, TriangleKernel, with_kernel};
@@ -181,16 +181,21 @@ fn in_frame<K: TriangleKernel, V: SimdF32, T: Traverse, Q: Query<V>>(
 /// Cuts a batch into packets, once the level and the packet size are known.
 fn run(exec: Exec, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
     match exec.packet {
-        PacketSize::Native => dispatch!(exec.level, s => native(s, rays, batch, stats)),
         PacketSize::Single => packets::<scalar::f32x1>(simd4::Scalar::new(), rays, batch, stats),
-        PacketSize::Four => dispatch!(exec.level, s => four(s, rays, batch, stats)),
-        PacketSize::Eight => dispatch!(exec.level, s => eight(s, rays, batch, stats)),
+        _ => match exec.lanes() {
+            4 => dispatch!(exec.level, s => four(s, rays, batch, stats)),
+            8 => dispatch!(exec.level, s => eight(s, rays, batch, stats)),
+            _ => dispatch!(exec.level, s => native(s, rays, batch, stats)),
+        },
     }
 }
 
+/// For registers that neither of the others is for: there is no code for one type twice.
 #[inline(always)]
 fn native<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
-    packets::<S::f32s>(s, rays, batch, stats);
+    if const { <S::f32s as Lanes>::LANES != 4 && <S::f32s as Lanes>::LANES != 8 } {
+        packets::<S::f32s>(s, rays, batch, stats);
+    }
 }
 
 #[inline(always)]

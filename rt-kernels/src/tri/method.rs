@@ -42,7 +42,7 @@ macro_rules! with_kernel {
 }
 pub(crate) use with_kernel;
 
-pub(crate) type MollerTrumboreMethod = MollerTrumbore<Division, Plain, true>;
+pub(crate) type MollerTrumboreMethod = MollerTrumbore<Division, Plain, true, true>;
 pub(crate) type WaldMethod = Wald<Division, Plain>;
 
 const _: () = assert!(
