@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{Args as Group, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
-use rt_render::{AccelKind, Exec, Integrator, Level, PacketSize};
+use rt_render::{AccelKind, Exec, Integrator, Level, Method, PacketSize};
 use rt_scene::Light;
 
 use crate::error::Error;
@@ -58,6 +58,8 @@ pub(crate) struct RenderArgs {
     pub(crate) picture: PictureArgs,
     #[command(flatten)]
     pub(crate) shading: ShadingArgs,
+    #[command(flatten)]
+    pub(crate) precision: PrecisionArgs,
     #[command(flatten)]
     pub(crate) machine: MachineArgs,
 
@@ -113,6 +115,30 @@ pub(crate) struct ShadingArgs {
     /// Let light through everything.
     #[arg(long)]
     pub(crate) no_shadows: bool,
+}
+
+/// How exact the picture is.
+#[derive(Group)]
+#[command(next_help_heading = "Precision")]
+pub(crate) struct PrecisionArgs {
+    /// The triangle test. Only the watertight one leaks nothing.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t, conflicts_with = "tolerance")]
+    kernel: KernelArg,
+    /// Take the cheapest triangle test that is off by less than this many pixels in this scene, as
+    /// far as can be foretold (rt info SCENE tells) [default: none, which is 0].
+    #[arg(long, value_name = "PX", value_parser = tolerance, allow_hyphen_values = true)]
+    pub(crate) tolerance: Option<f64>,
+}
+
+impl PrecisionArgs {
+    /// The triangle test, unless a tolerance chooses it.
+    pub(crate) fn method(&self) -> Method {
+        match self.kernel {
+            KernelArg::Watertight => Method::Watertight,
+            KernelArg::MollerTrumbore => Method::MollerTrumbore,
+            KernelArg::Wald => Method::Wald,
+        }
+    }
 }
 
 /// How the work is done. The picture does not depend on it.
@@ -249,6 +275,17 @@ enum AccelArg {
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]
+enum KernelArg {
+    /// Of Woop, Benthin and Wald: exact at edges.
+    #[default]
+    Watertight,
+    /// Of Möller and Trumbore: leaks at edges.
+    MollerTrumbore,
+    /// Of Wald, precomputed: leaks at edges, more so far from the origin.
+    Wald,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
 pub(crate) enum IntegratorArg {
     /// Phong shading, shadows, mirrors.
     #[default]
@@ -342,6 +379,13 @@ fn light(text: &str) -> Result<Light, String> {
     }
 }
 
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(pixels) if pixels.is_finite() && pixels.is_sign_positive() => Ok(pixels),
+        _ => Err("expected a number of pixels, 0 or more".into()),
+    }
+}
+
 fn angle(text: &str) -> Result<f32, String> {
     match numbers(text)?[..] {
         [degrees] if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
@@ -381,6 +425,10 @@ mod tests {
         assert_eq!(light("1,2,3,4,5,6").unwrap().color, Vec3::new(4.0, 5.0, 6.0));
         assert!(light("1,2,3,4").is_err());
         assert!(color("0,-1,0").is_err() && color("0,0.5,9").is_ok());
+        assert_eq!((tolerance("0"), tolerance("0.5")), (Ok(0.0), Ok(0.5)));
+        for bad in ["", "-1", "-0.0", "nan", "inf", "1px", "1,5"] {
+            assert!(tolerance(bad).is_err(), "{bad}");
+        }
         assert!(angle("0").is_err() && angle("180").is_err() && angle("45").is_ok());
     }
 }

@@ -144,25 +144,27 @@ impl World {
 
     /// The corners of a triangle.
     pub(crate) fn corners(&self, triangle: &rt_scene::Triangle) -> [Vec3; 3] {
-        triangle.position.map(|i| self.scene.mesh.positions[i as usize])
+        corners(&self.scene, triangle)
     }
 }
 
+/// The corners of a triangle.
+pub(crate) fn corners(scene: &Scene, triangle: &rt_scene::Triangle) -> [Vec3; 3] {
+    triangle.position.map(|i| scene.mesh.positions[i as usize])
+}
+
 fn primitives(scene: &Scene) -> Primitives {
-    let mesh = &scene.mesh;
-    let corners = |triangle: &rt_scene::Triangle| Triangle {
-        corners: triangle.position.map(|i| mesh.positions[i as usize]),
-    };
+    let flat = |triangle| Triangle { corners: corners(scene, triangle) };
     let sphere =
         |sphere: &rt_scene::Sphere| Sphere { center: sphere.center, radius: sphere.radius };
     Primitives {
-        triangles: mesh.triangles.iter().map(corners).collect(),
+        triangles: scene.mesh.triangles.iter().map(flat).collect(),
         spheres: scene.spheres.iter().map(sphere).collect(),
     }
 }
 
-/// The box around all that can be seen.
-fn bounds(scene: &Scene) -> Aabb {
+/// The box around all that can be seen: that of nothing if there is nothing.
+pub fn bounds(scene: &Scene) -> Aabb {
     let mesh = &scene.mesh;
     let corners = mesh.triangles.iter().flat_map(|triangle| triangle.position);
     let points = corners.map(|i| mesh.positions[i as usize]);

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Error> {
             .iter()
             .map(|&method| World::build_with(scene.clone(), AccelKind::Bvh, method, 1))
             .collect::<Result<Vec<_>, _>>()?;
-        let view = view.unwrap_or_else(|| default_view(&worlds[0], args.size));
+        let view = view.unwrap_or_else(|| default_view(worlds[0].bounds(), args.size));
         let job = job(view, args.size, execs[0]);
         let ways: Vec<_> = worlds
             .iter()

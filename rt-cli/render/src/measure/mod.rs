@@ -40,11 +40,7 @@ pub struct Row {
 ///
 /// # Errors
 /// If the camera looks nowhere.
-pub fn primary(
-    job: &Job,
-    ways: &[Way<'_>],
-    rounds: usize,
-) -> Result<Vec<Row>, RenderError> {
+pub fn primary(job: &Job, ways: &[Way<'_>], rounds: usize) -> Result<Vec<Row>, RenderError> {
     let Some(first) = ways.first() else { return Ok(Vec::new()) };
     let camera = camera(first.world, job)?;
     let (width, height) = job.size;
