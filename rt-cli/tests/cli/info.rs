@@ -16,6 +16,7 @@ fn a_scene_s_keys_are_those_that_are_documented() {
         "bounds",
         "skipped",
         "warnings",
+        "precision",
     ];
     assert_eq!(keys(&info), expected);
     assert_eq!(keys(&info["bounds"]), ["min", "max"]);

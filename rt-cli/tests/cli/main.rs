@@ -11,6 +11,7 @@ mod machine;
 #[cfg(unix)]
 mod output;
 mod picture;
+mod precision;
 mod stats;
 mod support;
 mod talk;

@@ -141,7 +141,8 @@ impl Seen {
     /// How far the plane may seem to be from where it is.
     fn depth(&self, errors: &Errors) -> f64 {
         let base = self.roundings(errors.depth, errors);
-        (base * self.aspect).min(DIAGONAL * self.longest + base)
+        let slimness = if errors.slim { self.aspect } else { 1.0 };
+        (base * slimness).min(DIAGONAL * self.longest + base)
     }
 
     fn roundings(&self, reach: f64, errors: &Errors) -> f64 {

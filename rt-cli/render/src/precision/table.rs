@@ -23,9 +23,11 @@ pub struct Errors {
     pub remainder: bool,
     /// Whether the band of an edge grows with the cosecant of the angle at which it is seen.
     pub end_on: bool,
-    /// How far `t` is off, as a shift of the triangle's plane, in the same units as `reach`. It
-    /// grows with the slimness of the triangle.
+    /// How far `t` is off, as a shift of the triangle's plane, in the same units as `reach`.
     pub depth: f64,
+    /// Whether that grows with the slimness of the triangle, because `t` is made of its edges and
+    /// not of its plane.
+    pub slim: bool,
     /// The greatest number of triangles for which the test is worth its memory.
     pub most_triangles: usize,
 }
@@ -50,6 +52,7 @@ pub const ERRORS: [Errors; 3] = [
         remainder: true,
         end_on: false,
         depth: 16.0,
+        slim: false,
         most_triangles: 1 << 17,
     },
     Errors {
@@ -59,6 +62,7 @@ pub const ERRORS: [Errors; 3] = [
         remainder: true,
         end_on: true,
         depth: 8.0,
+        slim: true,
         most_triangles: usize::MAX,
     },
     Errors {
@@ -68,6 +72,7 @@ pub const ERRORS: [Errors; 3] = [
         remainder: false,
         end_on: false,
         depth: 8.0,
+        slim: true,
         most_triangles: usize::MAX,
     },
 ];
