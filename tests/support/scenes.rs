@@ -134,7 +134,7 @@ pub fn scaled(mut scene: Scene, factor: f32) -> Scene {
 /// A closed mesh with bumps, near the origin: nothing is hard about it.
 pub fn near() -> Scene {
     let mut random = Random::new(7);
-    let mesh = Mesh::icosphere(4).map(|v| v * (1.0 + 0.1 * random.signed()));
+    let mesh = Mesh::icosphere(3).map(|v| v * (4.0 + 0.2 * random.signed()));
     of_mesh("near", &mesh)
 }
 
