@@ -92,15 +92,15 @@ pub(crate) fn facts_lines(
     }
     for (prediction, errors) in predictions.iter().zip(&ERRORS) {
         let Prediction { method, band, depth, pixels } = prediction;
-        let leaks = match method {
-            Method::Watertight => "keeps the promise: no leaks; ".to_owned(),
+        let verdict = match method {
+            Method::Watertight => "keeps the promise: no leaks".to_owned(),
             _ if facts.triangles > errors.most_triangles => {
-                format!("no gain above {} triangles; ", errors.most_triangles)
+                format!("no gain above {} triangles", errors.most_triangles)
             }
-            _ => format!("does for a tolerance above {} px; ", digits(*pixels)),
+            _ => "enough for any tolerance above that".to_owned(),
         };
         let text = format!(
-            "{}: {leaks}band {}, depth {}, together at most {} px",
+            "{}: band {}, depth {}: at most {} px; {verdict}",
             method.name(),
             digits(*band),
             digits(*depth),
