@@ -216,7 +216,7 @@ impl Eye {
     }
 
     /// How far from the nearest edge of a triangle a direction is seen, in pixels.
-    fn from_edges(&self, dir: DVec3, corners: [Vec3; 3]) -> f64 {
+    fn edge_distance(&self, dir: DVec3, corners: [Vec3; 3]) -> f64 {
         let at = self.project(self.eye + dir);
         let [a, b, c] = corners.map(|corner| self.project(corner.as_dvec3()));
         let distance = |a: DVec2, b: DVec2| {
@@ -269,7 +269,7 @@ fn off(scene: &Scene, method: Method) -> (usize, f64) {
             _ => {
                 differing += 1;
                 let either = [want, got].into_iter().flatten();
-                let off = either.map(|hit| eye.from_edges(dir, of(hit.prim)));
+                let off = either.map(|hit| eye.edge_distance(dir, of(hit.prim)));
                 off.fold(f64::INFINITY, f64::min)
             }
         });

@@ -42,7 +42,7 @@ pub struct Errors {
 /// coordinates. The watertight test's band is proven ([`Watertight`](rt_kernels::tri::Watertight),
 /// "Precision": 6 roundoffs along each of two axes).
 ///
-/// The order is that of `rt bench --kernels`. Wald's own boxes are 24 bytes more a triangle: where
+/// The order is that of `rt bench --kernels` on meshes that are not needles. Wald's own boxes are 24 bytes more a triangle: where
 /// the records no longer fit in a cache, that costs more than the test saves.
 pub const ERRORS: [Errors; 3] = [
     Errors {
