@@ -28,6 +28,7 @@ pub(crate) struct Args {
 }
 
 #[derive(Subcommand)]
+#[allow(clippy::large_enum_variant, reason = "there is one of it")]
 pub(crate) enum Command {
     Render(RenderArgs),
     Gen(GenArgs),
