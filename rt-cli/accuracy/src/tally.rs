@@ -33,7 +33,7 @@ pub struct Tally {
 impl Tally {
     /// Counts one ray: whether its family is of a closed surface, whether it and all triangles are
     /// finite, and for each triangle the truth and the answer.
-    pub(super) fn add(
+    pub(crate) fn add(
         &mut self,
         closed: bool,
         finite: bool,
@@ -66,7 +66,7 @@ impl Tally {
     }
 
     /// Adds the counts of other rays.
-    pub(super) fn merge(&mut self, other: &Tally) {
+    pub(crate) fn merge(&mut self, other: &Tally) {
         self.rays += other.rays;
         self.leaks += other.leaks;
         self.double_hits += other.double_hits;
@@ -94,7 +94,7 @@ const LEAST: f32 = 1.0 / 1024.0;
 const BIN: u32 = 23 - 5;
 
 impl Quantiles {
-    pub(super) fn add(&mut self, error: f64) {
+    pub(crate) fn add(&mut self, error: f64) {
         let bits = (error as f32).clamp(LEAST, f32::MAX).to_bits() - LEAST.to_bits();
         let bin = (bits >> BIN) as usize;
         if bin >= self.bins.len() {

@@ -3,7 +3,7 @@
 //! A kernel is one text for three uses: rays in lanes against one [`Record`], one ray in all lanes
 //! against records in lanes ([`RecordBlock`]), and one against one, which is the same with one
 //! lane. Its choices of [arithmetic](knobs) are type parameters. [`catalogue`] lists every kernel
-//! with every choice, so that tests, benches and charts are a loop; what renders is
+//! with every choice; what renders is
 //! [`Watertight`]'s default.
 //!
 //! Rays that run in a triangle's plane, triangles without area and numbers that are not finite hit
@@ -24,7 +24,7 @@ pub use moller_trumbore::MollerTrumbore;
 pub use moller_trumbore_f64::MollerTrumboreF64;
 pub use plucker::Plucker;
 pub use record::{BlockLanes, Record, RecordBlock, Records};
-pub use sweep::{Shape, Triangles, Way};
+pub use sweep::Triangles;
 pub use wald::Wald;
 pub use watertight::Watertight;
 

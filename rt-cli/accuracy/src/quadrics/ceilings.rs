@@ -1,21 +1,6 @@
 //! What tests of curved surfaces were found to get wrong, at most.
 
-/// The worst of one kernel: no measurement may exceed it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ceiling {
-    /// The method.
-    pub kernel: &'static str,
-    /// Its choices.
-    pub variant: &'static str,
-    /// False misses of a million rays, in the worst family.
-    pub false_misses: f64,
-    /// False hits of a million rays, in the worst family.
-    pub false_hits: f64,
-    /// The 99th percentile of the error of `t`, in units in the last place, in the worst fair family.
-    pub t_p99: f64,
-    /// The band in which rays are misjudged.
-    pub band: f64,
-}
+use crate::Ceiling;
 
 /// All kernels of the catalogue.
-pub const CEILINGS: [Ceiling; 0] = [];
+pub(super) const CEILINGS: [Ceiling; 0] = [];

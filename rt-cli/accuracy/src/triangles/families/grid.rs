@@ -3,27 +3,33 @@
 use glam::DVec3;
 use rt_kernels::Ray;
 
-use super::{BATCH, Batch, Family, Kind, Place, UNIT};
+use super::{Batch, TriangleFamily};
+use crate::place::Place;
+use crate::{BATCH, Facts, Kind, Setting};
 use rt_kernels::reference::random::Random;
 
-pub(super) const EXACT: Family = Family {
-    name: "grid",
-    about: "integer vertices, and rays exactly through them and through edges and diagonals",
-    kind: Kind::Closed,
-    fair: true,
-    setting: UNIT,
+pub(super) const EXACT: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "grid",
+        about: "integer vertices, and rays exactly through them and through edges and diagonals",
+        kind: Kind::Closed,
+        fair: true,
+        setting: Setting::UNIT,
+    },
     make: |random, place| {
         *place = place.clone().upright();
         grid(random, place)
     },
 };
 
-pub(super) const ROTATED: Family = Family {
-    name: "rotated grid",
-    about: "the same grid, rotated and rounded, by another angle in each batch",
-    kind: Kind::Closed,
-    fair: true,
-    setting: UNIT,
+pub(super) const ROTATED: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "rotated grid",
+        about: "the same grid, rotated and rounded, by another angle in each batch",
+        kind: Kind::Closed,
+        fair: true,
+        setting: Setting::UNIT,
+    },
     make: grid,
 };
 
