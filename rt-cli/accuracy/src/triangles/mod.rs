@@ -80,11 +80,10 @@ impl Family for TriangleFamily {
 
     fn broken_promise(row: &Row<Self>) -> Option<String> {
         let (facts, tally) = (row.family.facts(), &row.tally);
-        let near = row.setting.offset == 0.0;
         let kept = tally.leaks == 0
             && tally.nan_hits == 0
             && (!facts.fair || tally.t_ulp.at(0.99) <= 4.0)
-            && (!facts.fair || !near || tally.band <= 2.0)
+            && (facts.name != "band" || tally.band <= 2.0)
             && (facts.name != "spawned" || tally.false_hits == 0);
         (!kept).then(|| format!("{row:?}"))
     }

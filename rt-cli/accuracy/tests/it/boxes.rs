@@ -12,7 +12,7 @@ use super::{shown, subject, the_default_keeps_its_promises_everywhere};
 
 #[test]
 fn the_default_misses_nothing_at_any_scale_or_distance() {
-    the_default_keeps_its_promises_everywhere(|_: &BoxFamily| true);
+    the_default_keeps_its_promises_everywhere(|_: &BoxFamily, _| true);
 }
 
 /// A family in which nothing is hit would ask nothing.

@@ -13,8 +13,12 @@ use super::{shown, the_default_keeps_its_promises_everywhere};
 
 #[test]
 fn the_default_leaks_nothing_at_any_scale_or_distance() {
-    the_default_keeps_its_promises_everywhere(|family: &TriangleFamily| {
-        family.facts().kind == Kind::Closed
+    the_default_keeps_its_promises_everywhere(|family: &TriangleFamily, setting| {
+        // A thousandth of a mesh's size must be more than roundoff: rays from the inside of what
+        // is crushed start on its surface.
+        let thin = ["pancake", "needle"].contains(&family.facts().name);
+        let crushed = thin && 1e-3 * setting.scale < 64.0 * f32::EPSILON * setting.offset;
+        family.facts().kind == Kind::Closed && !crushed
     });
 }
 
@@ -90,5 +94,5 @@ fn families_are_the_same_everywhere() {
             points.chain(rays).flat_map(bits).collect::<Vec<_>>()
         })
     });
-    assert_eq!(fnv1a(bytes), 0, "new families: new figures");
+    assert_eq!(fnv1a(bytes), 9_501_731_601_842_161_797, "new families: new figures");
 }
