@@ -20,7 +20,7 @@ const SCENE: &str = "An OBJ or NFF file, or spd:NAME[:SIZE] for a procedural sce
 #[command(name = "rt", version, max_term_width = 100, disable_help_subcommand = true)]
 #[command(after_help = "Begin with:\n  \
     rt render spd:balls -o balls.png\n\n\
-    Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted")]
+    Exit codes: 0 done, 1 failed, 2 wrong usage, 3 less accurate than it should be, 130 interrupted")]
 pub(crate) struct Args {
     /// What to do.
     #[command(subcommand)]
@@ -33,6 +33,7 @@ pub(crate) enum Command {
     Gen(GenArgs),
     Info(InfoArgs),
     Bench(BenchArgs),
+    Accuracy(AccuracyArgs),
 }
 
 /// Render one picture of a scene.
@@ -234,6 +235,40 @@ pub(crate) struct BenchArgs {
     /// Write the rows to a .json file too; - for standard output, where no table is then.
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
+}
+
+/// Show every kernel every family of inputs that are hard on it, and count what it gets wrong.
+///
+/// Exact arithmetic is the judge. Each kernel is run at every level that the CPU has, one ray at a
+/// time, rays in lanes and primitives in lanes; the table shows rays in lanes at the best level, the
+/// file all. If a kernel is less accurate than it is known to be, the exit code is 3.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt accuracy --quick\n  \
+    rt accuracy --json accuracy.json && rt chart --from accuracy.json -o chart.svg")]
+pub(crate) struct AccuracyArgs {
+    /// Fewer rays: a few seconds.
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Rays of each family [default: 1000000, or 16384 with --quick].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    rays: Option<u32>,
+    /// Which random numbers to use.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Write all rows to a .json file too; - for standard output, where no table is then.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Say nothing but errors.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+impl AccuracyArgs {
+    /// Rays of each family.
+    pub(crate) fn rays(&self) -> usize {
+        self.rays.unwrap_or(if self.quick { 16_384 } else { 1_000_000 }) as usize
+    }
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]

@@ -2,8 +2,9 @@
 
 use std::io;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
-/// A command failed: exit code 1. Its text is complete: it needs no source beside it.
+/// A command failed. Its text is complete: it needs no source beside it.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Error {
     /// The scene cannot be read.
@@ -42,6 +43,9 @@ pub(crate) enum Error {
     /// Two outputs would go to one place.
     #[error("{}: picture and statistics cannot go to the same place", .0.display())]
     SameOutput(PathBuf),
+    /// A kernel is less accurate than it is known to be.
+    #[error("less accurate than it should be:\n  {}", .0.join("\n  "))]
+    Inaccurate(Vec<String>),
     /// A way to trace gave other hits than another. This is a fault of the program.
     #[error("{scene}: {differing} hits differ between {way} and the first row: please report this")]
     Differ {
@@ -55,6 +59,14 @@ pub(crate) enum Error {
 }
 
 impl Error {
+    /// What the program says to scripts: 3 for a threshold that was missed, 1 for all else.
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        match self {
+            Error::Inaccurate(_) => ExitCode::from(3),
+            _ => ExitCode::FAILURE,
+        }
+    }
+
     /// Whether its text begins with the place that it is about.
     pub(crate) fn has_place(&self) -> bool {
         matches!(self, Error::Scene(rt_scene::Error::Invalid(_)))
