@@ -250,7 +250,7 @@ pub(crate) struct AccuracyArgs {
     /// Fewer rays: a few seconds.
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Rays of each family [default: 1000000, or 16384 with --quick].
+    /// Rays of each family [default: 1000000, or 8192 with --quick].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     rays: Option<u32>,
     /// Which random numbers to use.
@@ -267,7 +267,7 @@ pub(crate) struct AccuracyArgs {
 impl AccuracyArgs {
     /// Rays of each family.
     pub(crate) fn rays(&self) -> usize {
-        self.rays.unwrap_or(if self.quick { 16_384 } else { 1_000_000 }) as usize
+        self.rays.unwrap_or(if self.quick { 8_192 } else { 1_000_000 }) as usize
     }
 }
 

@@ -78,3 +78,16 @@ pub(crate) fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     text.split_once(" (os error ").map_or(text.clone(), |(words, _)| words.to_owned())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missed_threshold_has_a_code_of_its_own() {
+        let missed = Error::Inaccurate(vec!["a".to_owned(), "b".to_owned()]);
+        assert_eq!(missed.to_string(), "less accurate than it should be:\n  a\n  b");
+        assert_eq!(missed.exit_code(), ExitCode::from(3));
+        assert_eq!(Error::SameOutput("x".into()).exit_code(), ExitCode::FAILURE);
+    }
+}

@@ -58,7 +58,7 @@ pub fn worst<F: Family>(rows: &[&Row<F>]) -> Worst {
         if row.setting.offset == 0.0 {
             worst.band = worst.band.max(tally.band);
             if row.family.facts().fair {
-                worst.t_p99 = worst.t_p99.max(tally.t_ulp.at(0.99));
+                worst.t_p99 = worst.t_p99.max(tally.t_p99());
             }
         }
     }

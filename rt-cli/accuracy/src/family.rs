@@ -156,15 +156,19 @@ pub fn subjects<F: Family>() -> Vec<Subject<F::Kernel>> {
     F::kernels().into_iter().flat_map(each).filter(is_itself).collect()
 }
 
-/// Every kernel, one way: packets at the best level, or else one ray at a time.
+/// Every kernel once: packets at the best level, or else one ray at a time. One that is not exact,
+/// and so not the same in all shapes, both ways.
 ///
 /// # Panics
 /// If `SIMD4_LEVEL` names no level of this CPU.
-pub fn one_way_each<F: Family>() -> Vec<Subject<F::Kernel>> {
+pub fn samples<F: Family>() -> Vec<Subject<F::Kernel>> {
     let level = Level::best().expect("a level");
     let ways = [Shape::Rays, Shape::One].map(|shape| Way { level, shape });
-    let first = |kernel| ways.map(|way| Subject { kernel, way }).into_iter().find(is_itself);
-    F::kernels().into_iter().filter_map(first).collect()
+    let each = |kernel: &'static F::Kernel| {
+        let all = ways.map(|way| Subject { kernel, way }).into_iter().filter(is_itself);
+        all.take(if kernel.is_exact() { 1 } else { 2 })
+    };
+    F::kernels().into_iter().flat_map(each).collect()
 }
 
 /// The kernel that renders, every way it runs.

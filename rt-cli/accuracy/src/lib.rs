@@ -19,7 +19,7 @@ mod time;
 pub mod triangles;
 
 pub use ceiling::{Ceiling, Worst, complaints, worst};
-pub use family::{BATCH, Facts, Family, Kind, Setting, Subject, defaults, one_way_each, subjects};
+pub use family::{BATCH, Facts, Family, Kind, Setting, Subject, defaults, samples, subjects};
 pub use measure::{Row, answers, measure};
 pub use rt_kernels::catalogue::{Listed, Shape, Way};
 pub use tally::{Quantiles, Tally};

@@ -65,6 +65,11 @@ impl Tally {
         self.nan_hits += u64::from(nan_hit);
     }
 
+    /// What 99 % of the errors of `t` are no greater than; 0 if there are too few of them to tell.
+    pub fn t_p99(&self) -> f64 {
+        if self.t_ulp.count() < 1_000 { 0.0 } else { self.t_ulp.at(0.99) }
+    }
+
     /// Adds the counts of other rays.
     pub(crate) fn merge(&mut self, other: &Tally) {
         self.rays += other.rays;

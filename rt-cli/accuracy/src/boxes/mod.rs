@@ -80,7 +80,7 @@ impl Family for BoxFamily {
         let tally = &row.tally;
         let kept = tally.false_misses == 0
             && tally.nan_hits == 0
-            && (!row.family.facts().fair || tally.t_ulp.at(0.99) <= 4.0);
+            && (!row.family.facts().fair || tally.t_p99() <= 4.0);
         (!kept).then(|| format!("{row:?}"))
     }
 }

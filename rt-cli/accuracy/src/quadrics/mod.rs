@@ -76,7 +76,7 @@ impl Family for QuadricFamily {
         let in_doubt = facts.name == "grazing" || facts.name == "near surface";
         let kept = tally.nan_hits == 0
             && tally.band <= 3.0
-            && (!facts.fair || tally.t_ulp.at(0.99) <= 4.0)
+            && (!facts.fair || tally.t_p99() <= 4.0)
             && (in_doubt || tally.false_hits + tally.false_misses == 0);
         (!kept).then(|| format!("{row:?}"))
     }

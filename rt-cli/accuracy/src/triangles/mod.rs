@@ -82,7 +82,7 @@ impl Family for TriangleFamily {
         let (facts, tally) = (row.family.facts(), &row.tally);
         let kept = tally.leaks == 0
             && tally.nan_hits == 0
-            && (!facts.fair || tally.t_ulp.at(0.99) <= 4.0)
+            && (!facts.fair || tally.t_p99() <= 4.0)
             && (facts.name != "band" || tally.band <= 2.0)
             && (facts.name != "spawned" || tally.false_hits == 0);
         (!kept).then(|| format!("{row:?}"))

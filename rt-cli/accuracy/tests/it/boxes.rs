@@ -1,7 +1,7 @@
 //! What is asked of slab tests alone.
 
 use rt_accuracy::boxes::{BoxFamily, Likeness, time};
-use rt_accuracy::{BATCH, Family, Subject, Way, defaults, one_way_each};
+use rt_accuracy::{BATCH, Family, Subject, Way, defaults, samples};
 use rt_kernels::geom::Aabb;
 use rt_kernels::slab::{BoxSet, Crossings};
 use rt_kernels::{Ray, Rays};
@@ -81,7 +81,7 @@ fn known_mistakes_are_found() {
     fails("conservative", "division, as printed", "flat", 100_000.0);
     // A fused product less a rounded one: where there is such an instruction.
     let fused = "division, b·r − o·r";
-    if one_way_each::<BoxFamily>().iter().any(|subject| subject.kernel.variant() == fused) {
+    if samples::<BoxFamily>().iter().any(|subject| subject.kernel.variant() == fused) {
         fails("signed", fused, "far", 100_000.0);
     }
 }

@@ -10,17 +10,17 @@ mod triangles;
 use std::collections::BTreeSet;
 
 use rt_accuracy::{
-    Family, Listed, Row, Setting, Subject, Way, answers, complaints, defaults, measure,
-    one_way_each, worst,
+    Family, Listed, Row, Setting, Subject, Way, answers, complaints, defaults, measure, samples,
+    worst,
 };
 use rt_tests::rays;
 
-/// One kernel, the way [`one_way_each`] has it.
+/// One kernel, the way [`samples`] has it.
 fn subject<F: Family>(kernel: &str, variant: &str) -> Subject<F::Kernel> {
     let is = |subject: &Subject<F::Kernel>| {
         subject.kernel.name() == kernel && subject.kernel.variant() == variant
     };
-    one_way_each::<F>()
+    samples::<F>()
         .into_iter()
         .find(is)
         .unwrap_or_else(|| panic!("there is no {kernel} ({variant})"))
@@ -42,7 +42,7 @@ fn the_default_keeps_its_promises_at_every_level<F: Family>() {
 
 /// All settings of all families that are asked for.
 fn the_default_keeps_its_promises_everywhere<F: Family>(is_asked: impl Fn(&F, Setting) -> bool) {
-    let mut subjects = one_way_each::<F>();
+    let mut subjects = samples::<F>();
     subjects.retain(|subject| subject.kernel.is_default());
     for family in F::all() {
         for scale in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
@@ -83,7 +83,7 @@ fn exact_kernels_are_bit_equal_on_all_levels<F: Family>() {
 
 /// All kernels one way, in all families.
 fn all_rows<F: Family>(n: usize) -> Vec<Row<F>> {
-    let subjects = one_way_each::<F>();
+    let subjects = samples::<F>();
     let rows = |family: &'static F| measure(&subjects, family, family.facts().setting, n);
     F::all().iter().flat_map(rows).collect()
 }
@@ -129,6 +129,25 @@ fn ceilings_are_what_a_million_rays_show<F: Family>() {
     let complaints = complaints(&rows).join("\n");
     assert!(differ.is_empty(), "these are the figures now:{differ}\n{complaints}");
     assert!(complaints.is_empty(), "{complaints}");
+}
+
+/// What is judged must be able to fail.
+fn complaints_are_made<F: Family>() {
+    let rows = all_rows::<F>(64);
+    assert_eq!(complaints(&rows), <[String; 0]>::default());
+    let bad = |change: &dyn Fn(&mut Row<F>)| {
+        let mut rows = rows.clone();
+        let default = rows.iter_mut().filter(|row| row.subject.kernel.is_default());
+        default.filter(|row| row.tally.rays > 0).for_each(change);
+        complaints(&rows)
+    };
+    assert!(!bad(&|row| row.tally.nan_hits = 1).is_empty());
+    assert!(!bad(&|row| row.tally.band = 1e9).is_empty());
+    if F::SORT == "triangle" {
+        assert!(!bad(&|row| row.tally.leaks = 1).is_empty());
+    } else {
+        assert!(!bad(&|row| row.tally.false_misses = 1).is_empty());
+    }
 }
 
 fn the_catalogue_is_in_order<F: Family>() {
@@ -178,6 +197,10 @@ macro_rules! stamp {
             #[test]
             fn the_catalogue_is_in_order() {
                 super::the_catalogue_is_in_order::<F>();
+            }
+            #[test]
+            fn complaints_are_made() {
+                super::complaints_are_made::<F>();
             }
             #[test]
             fn times_are_times() {

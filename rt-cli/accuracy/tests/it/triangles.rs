@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use rt_accuracy::triangles::TriangleFamily;
-use rt_accuracy::{BATCH, Family, Kind, Subject, Way, one_way_each};
+use rt_accuracy::{BATCH, Family, Kind, Subject, Way, samples};
 use rt_kernels::geom::Triangle;
 use rt_kernels::{Accelerator, Brute, Exec, Hits, Primitives, Ray, Rays, Stats};
 use rt_tests::hash::fnv1a;
@@ -68,7 +68,7 @@ fn the_closest_of_many_is_the_same_in_every_shape() {
 /// A family that the common test passes would have lost its teeth.
 #[test]
 fn moller_trumbore_fails_the_edge_family() {
-    let mut subjects = one_way_each::<TriangleFamily>();
+    let mut subjects = samples::<TriangleFamily>();
     subjects.retain(|subject| subject.kernel.name() == "moller-trumbore");
     assert!(subjects.len() >= 4, "{subjects:?}");
     for name in ["edge", "vertex", "tiny", "far", "rotated grid"] {
