@@ -33,6 +33,7 @@ pub(crate) enum Command {
     Gen(GenArgs),
     Info(InfoArgs),
     Bench(BenchArgs),
+    Chart(ChartArgs),
 }
 
 /// Render one picture of a scene.
@@ -234,6 +235,22 @@ pub(crate) struct BenchArgs {
     /// Write the rows to a .json file too; - for standard output, where no table is then.
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
+}
+
+/// Draw speed against accuracy: what every kernel costs and how often it is wrong.
+///
+/// The files are what rt accuracy --json writes, all of one machine. The picture is SVG.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt chart --from accuracy.json -o accuracy.svg\n  \
+    rt chart --from triangles.json boxes.json -o accuracy.svg")]
+pub(crate) struct ChartArgs {
+    /// The .json files to draw, together.
+    #[arg(long, value_name = "FILE", num_args = 1.., required = true)]
+    pub(crate) from: Vec<PathBuf>,
+    /// The .svg file to write; - for standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]

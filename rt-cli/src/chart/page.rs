@@ -1,0 +1,169 @@
+//! The page: a legend, a block for each suite, a caption.
+
+use plotters::prelude::*;
+
+use super::model::{Error, Model, Point, Suite};
+use super::panel::Panel;
+use super::rows::SuiteKind;
+use super::scale::{Scale, number};
+use super::style::{BOLD, Canvas, Drawn, NOTE, Words};
+use super::{legend, levels};
+
+const WIDTH: i32 = 1200;
+const MARGIN: i32 = 30;
+/// The height of what is above the suites.
+const HEAD: i32 = 130;
+/// The heights of the two rows of a suite.
+const ROWS: [i32; 2] = [370, 300];
+/// The height of a suite, with its title and what separates it from the next.
+const SUITE: i32 = 44 + ROWS[0] + ROWS[1] + 24;
+const LINE: i32 = 18;
+
+/// Beyond 2^24 units in the last place nothing of a number is right: more says no more.
+const LIMIT: f64 = 1e7;
+
+/// What is called wrong in a suite.
+struct Terms {
+    title: &'static str,
+    wrong: &'static str,
+    edges: &'static str,
+    t: &'static str,
+}
+
+impl Terms {
+    fn of(kind: SuiteKind) -> Terms {
+        match kind {
+            SuiteKind::Triangle => Terms {
+                title: "Ray/triangle",
+                wrong: "leaks",
+                edges: "rays aimed at edges and vertices",
+                t: "ulps of t",
+            },
+            SuiteKind::Box => Terms {
+                title: "Ray/box",
+                wrong: "false misses",
+                edges: "rays aimed at edges and sides",
+                t: "ulps of the t of entry",
+            },
+            SuiteKind::Quadric => Terms {
+                title: "Ray/quadric",
+                wrong: "false hits and misses",
+                edges: "rays that graze, from near and far",
+                t: "ulps of t",
+            },
+        }
+    }
+}
+
+/// Draws all of it.
+pub(crate) fn svg(model: &Model) -> String {
+    let mut text = String::new();
+    let caption = caption(model);
+    let lines = i32::try_from(caption.len()).unwrap_or(i32::MAX / 100);
+    let suites = i32::try_from(model.suites.len()).unwrap_or(3);
+    let height = HEAD + suites * SUITE + lines * LINE + MARGIN;
+    {
+        let size = (WIDTH.unsigned_abs(), height.unsigned_abs());
+        let page = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        draw(model, &caption, &page).expect("strings can be written to");
+    }
+    text
+}
+
+fn draw(model: &Model, caption: &[String], page: &Canvas) -> Drawn {
+    page.fill(&WHITE)?;
+    let title = Words { size: 22, ..BOLD };
+    title.write(page, (MARGIN, 34), "Speed against accuracy: lower left is better")?;
+    legend::marks(model, page, (MARGIN, 72))?;
+    let mut y = HEAD;
+    for suite in &model.suites {
+        block(suite, page, y)?;
+        y += SUITE;
+    }
+    for line in caption {
+        NOTE.write(page, (MARGIN, y), line)?;
+        y += LINE;
+    }
+    page.present()
+}
+
+fn block(suite: &Suite, page: &Canvas, y: i32) -> Drawn {
+    let terms = Terms::of(suite.kind);
+    let title = Words { size: 18, ..BOLD };
+    title.write(page, (MARGIN, y + 12), terms.title)?;
+    legend::kernels(suite, page, (MARGIN + 150, y + 13))?;
+
+    let points: Vec<_> = suite.best().collect();
+    let time = Scale::around(points.iter().map(|point| point.ns), 6);
+    let rates = points.iter().flat_map(|point| [point.hard(), point.natural()]).flatten();
+    let lanes = suite.kernels.len() as f64;
+    let strip = (lanes * 15.0 + 8.0).min(130.0) / f64::from(ROWS[0]);
+    let scale = Scale::decades(rates.chain([1e6]), 1e6, strip);
+    let none = format!("none seen: fewer than 3/N = {}", number(3e6 / suite.rays as f64));
+    let top = y + 44;
+    let wrong = format!("{} per million in the worst family", terms.wrong);
+    let hard = Panel {
+        title: &format!("Hard: {}", terms.edges),
+        unit: &wrong,
+        suite,
+        points: &points,
+        error: Point::hard,
+        time: &time,
+        scale: &scale,
+        none: &none,
+        labels: true,
+        numbered: true,
+    };
+    hard.draw(page, (0, top), (530, ROWS[0]))?;
+    let natural = Panel {
+        title: "Natural: random and camera rays",
+        unit: &wrong,
+        error: Point::natural,
+        labels: false,
+        numbered: false,
+        ..hard
+    };
+    natural.draw(page, (530, top), (300, ROWS[0]))?;
+    legend::front(suite, &points, page, (860, top), (WIDTH - MARGIN - 860, ROWS[0]))?;
+
+    let top = top + ROWS[0];
+    let ulps = format!("{}: 99 % of the hits err by less", terms.t);
+    let rest: [(&str, &str, Error, i32); 2] = [
+        ("Error of t", &ulps, |point| point.t, 0),
+        (
+            "Band: the worst misjudged ray",
+            "2^-24 of the scene's size from an edge",
+            |point| point.band,
+            355,
+        ),
+    ];
+    for (title, unit, error, x) in rest {
+        let values: Vec<_> = points.iter().filter_map(|point| error(point)).collect();
+        let strip = if values.contains(&0.0) { 0.2 } else { 0.0 };
+        let scale = Scale::decades(values.into_iter(), LIMIT, strip);
+        let panel = Panel {
+            title,
+            unit,
+            error,
+            scale: &scale,
+            none: "",
+            labels: true,
+            numbered: false,
+            ..hard
+        };
+        panel.draw(page, (x, top), (355, ROWS[1]))?;
+    }
+    levels::draw(suite, page, (730, top), (WIDTH - MARGIN - 730 + 14, ROWS[1]))
+}
+
+/// What it was measured with, in lines.
+fn caption(model: &Model) -> Vec<String> {
+    let machine = format!("Machine: {}", model.machine);
+    let commands = model.commands.iter().map(|command| format!("Command: {command}"));
+    let about = "Each point is one variant of a kernel in the fastest of its shapes (one ray, rays in \
+        lanes, primitives in lanes) at the best level that it has; time and errors are of the same \
+        compiled code in one run. N is the number of rays in each family; of what was not seen in N \
+        rays, the rate is below 3/N with 95 % confidence.";
+    let paragraphs = [about.to_owned(), machine].into_iter().chain(commands);
+    paragraphs.flat_map(|paragraph| NOTE.wrap(&paragraph, WIDTH - 2 * MARGIN)).collect()
+}
