@@ -7,7 +7,7 @@ use super::model::{Model, Point, Rate, Suite};
 use super::rows::LevelIndex;
 use super::scale::number;
 use super::style::{
-    AXIS, BEATEN, BOLD, Canvas, Drawn, FAINT, INK, NOTE, PLAIN, Pixel, Words, color, fill, path,
+    AXIS, BEATEN, BOLD, Canvas, Drawn, FAINT, NOTE, PLAIN, Pixel, color, fill, path,
 };
 
 /// The marks, in one line or more from a place on. Returns where the next line may be.
@@ -19,13 +19,13 @@ pub(super) fn marks(model: &Model, page: &Canvas, (x, y): Pixel) -> Result<i32, 
     let grey = |level, filled| Marker { level, color: FAINT, filled, faded: false };
     let mut at = x;
     BOLD.write(page, (at, y), "Shape: the level")?;
-    at += 126;
+    at += BOLD.width("Shape: the level") + 14;
     for level in &levels {
         grey(*level, true).draw(page, (at, y))?;
         PLAIN.write(page, (at + 12, y), level.name())?;
         at += 30 + PLAIN.width(level.name());
     }
-    at += 14;
+    at += 30;
     let best = levels.last().copied().unwrap_or(LevelIndex(0));
     grey(best, true).draw(page, (at, y))?;
     at = say(page, (at + 12, y), "filled: the same bits on every machine")?;
@@ -37,12 +37,16 @@ pub(super) fn marks(model: &Model, page: &Canvas, (x, y): Pixel) -> Result<i32, 
     let mut at = x + 6;
     ring(page, (at, y))?;
     grey(best, true).draw(page, (at, y))?;
-    at = say(page, (at + 16, y), "what rt renders with")?;
+    at = say(page, (at + 16, y), "the default: what rt renders with")?;
     path(page, vec![(at, y), (at + 22, y)], FAINT, 2)?;
     at = say(page, (at + 30, y), "the best of one kernel; its other variants are pale")?;
     fill(page, [(at, y - 8), (at + 22, y + 8)], BEATEN)?;
     path(page, vec![(at, y - 8), (at, y + 8), (at + 22, y + 8)], AXIS, 1)?;
-    say(page, (at + 30, y), "grey: something else is both faster and more accurate (Pareto)")?;
+    say(
+        page,
+        (at + 30, y),
+        "grey: behind the Pareto front, where another is faster and errs less",
+    )?;
     Ok(y + 26)
 }
 
@@ -55,11 +59,13 @@ fn say(page: &Canvas, at: Pixel, text: &str) -> Result<i32, Failed> {
 }
 
 /// The kernels of a suite and their colours, in a line.
-pub(super) fn kernels(suite: &Suite, page: &Canvas, (mut x, y): Pixel) -> Drawn {
+pub(super) fn kernels(suite: &Suite, page: &Canvas, (mut x, y): Pixel, width: i32) -> Drawn {
+    let room = width / i32::try_from(suite.kernels.len()).unwrap_or(i32::MAX) - 40;
     for (kernel, name) in suite.kernels.iter().enumerate() {
         fill(page, [(x, y - 6), (x + 12, y + 6)], color(kernel))?;
-        Words { color: INK, ..BOLD }.write(page, (x + 18, y), name)?;
-        x += 40 + BOLD.width(name);
+        let name = BOLD.fit(name, room);
+        BOLD.write(page, (x + 18, y), &name)?;
+        x += 40 + BOLD.width(&name);
     }
     Ok(())
 }
@@ -74,7 +80,7 @@ pub(super) fn front(
 ) -> Drawn {
     let front = Suite::front(points, Point::hard);
     BOLD.write(page, (x, y + 8), "The front, fastest first")?;
-    NOTE.write(page, (x, y + 27), "variant: ns per test, wrong per million (in which family)")?;
+    NOTE.write(page, (x, y + 27), "ns per test, wrong per million (worst family)")?;
     let room = usize::try_from((height - 44) / 36).unwrap_or(0);
     let default = points.iter().find(|point| point.default);
     let apart =
@@ -84,17 +90,17 @@ pub(super) fn front(
     let entries = front.iter().enumerate().take(shown).map(|(i, p)| ((i + 1).to_string(), *p));
     for (number, point) in entries.chain(apart.map(|point| (String::new(), *point))) {
         let level = point.level;
-        BOLD.write(page, (x, top), &number)?;
+        BOLD.write(page, (x, top + 8), &number)?;
         let at = (x + 28, top + 8);
         if point.default {
             ring(page, at)?;
         }
         Marker { level, color: color(point.kernel), filled: point.exact, faded: false }
             .draw(page, at)?;
-        let name = format!("{}: {}", suite.kernels[point.kernel], point.variant);
-        let left = x + 48;
-        PLAIN.write(page, (left, top), &PLAIN.fit(&name, width - 48))?;
-        NOTE.write(page, (left, top + 16), &NOTE.fit(&figures(point), width - 48))?;
+        let (left, kernel) = (x + 48, &suite.kernels[point.kernel]);
+        let figures = format!("{kernel}: {}", figures(point));
+        PLAIN.write(page, (left, top), &PLAIN.fit(&figures, width - 48))?;
+        NOTE.write(page, (left, top + 16), &NOTE.fit(&point.variant, width - 48))?;
         top += 36;
     }
     Ok(())
@@ -106,6 +112,5 @@ fn figures(point: &Point) -> String {
         Some(Rate { per_million, .. }) if *per_million == 0.0 => "none seen".to_owned(),
         Some(Rate { per_million, family }) => format!("{} ({family})", number(*per_million)),
     };
-    let default = if point.default { ", the default" } else { "" };
-    format!("{} ns, {errors}{default}", number(point.ns))
+    format!("{} ns, {errors}", number(point.ns))
 }

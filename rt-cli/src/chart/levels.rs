@@ -13,7 +13,7 @@ const HEAD: i32 = 44;
 /// The height of the axis.
 const FOOT: i32 = 42;
 /// The width of the names.
-const NAMES: i32 = 190;
+const NAMES: i32 = 215;
 
 /// Draws them in a part of the page.
 pub(super) fn draw(suite: &Suite, page: &Canvas, (x, y): Pixel, (width, height): Pixel) -> Drawn {
@@ -45,10 +45,10 @@ pub(super) fn draw(suite: &Suite, page: &Canvas, (x, y): Pixel, (width, height):
         NOTE.write(page, (x + 4, y + 8), &variant)?;
         let places: Vec<_> = row.iter().map(|point| (at(point.ns), y)).collect();
         path(page, places.clone(), color(kernel), 2)?;
+        if let (true, Some(best)) = (row[0].default, places.last()) {
+            ring(page, *best)?;
+        }
         for (point, at) in row.iter().zip(places) {
-            if point.default {
-                ring(page, at)?;
-            }
             let (level, color, filled) = (point.level, color(kernel), point.exact);
             Marker { level, color, filled, faded: false }.draw(page, at)?;
         }

@@ -36,7 +36,6 @@ pub(super) struct Point {
     pub(super) kernel: usize,
     pub(super) variant: String,
     pub(super) level: LevelIndex,
-    pub(super) shape: Shape,
     pub(super) default: bool,
     pub(super) exact: bool,
     /// Time of a test.
@@ -193,7 +192,6 @@ impl Point {
             kernel,
             variant: row.variant.0.clone(),
             level: row.level,
-            shape: row.shape,
             default: row.default,
             exact: row.exact,
             ns: row.ns,

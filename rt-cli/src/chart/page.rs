@@ -16,7 +16,10 @@ const HEAD: i32 = 130;
 /// The heights of the two rows of a suite.
 const ROWS: [i32; 2] = [370, 300];
 /// The height of a suite, with its title and what separates it from the next.
-const SUITE: i32 = 44 + ROWS[0] + ROWS[1] + 24;
+const SUITE: i32 = TITLE + ROWS[0] + GAP + ROWS[1] + 2 * GAP;
+/// The height of a suite's title.
+const TITLE: i32 = 44;
+const GAP: i32 = 16;
 const LINE: i32 = 18;
 
 /// Beyond 2^24 units in the last place nothing of a number is right: more says no more.
@@ -91,16 +94,16 @@ fn block(suite: &Suite, page: &Canvas, y: i32) -> Drawn {
     let terms = Terms::of(suite.kind);
     let title = Words { size: 18, ..BOLD };
     title.write(page, (MARGIN, y + 12), terms.title)?;
-    legend::kernels(suite, page, (MARGIN + 150, y + 13))?;
+    legend::kernels(suite, page, (MARGIN + 150, y + 13), WIDTH - 2 * MARGIN - 150)?;
 
     let points: Vec<_> = suite.best().collect();
     let time = Scale::around(points.iter().map(|point| point.ns), 6);
     let rates = points.iter().flat_map(|point| [point.hard(), point.natural()]).flatten();
     let lanes = suite.kernels.len() as f64;
-    let strip = (lanes * 15.0 + 8.0).min(130.0) / f64::from(ROWS[0]);
+    let strip = ((lanes + 1.0) * 15.0).min(140.0) / f64::from(ROWS[0] - 86);
     let scale = Scale::decades(rates.chain([1e6]), 1e6, strip);
-    let none = format!("none seen: fewer than 3/N = {}", number(3e6 / suite.rays as f64));
-    let top = y + 44;
+    let none = format!("fewer than 3/N = {} per million", number(3e6 / suite.rays as f64));
+    let top = y + TITLE;
     let wrong = format!("{} per million in the worst family", terms.wrong);
     let hard = Panel {
         title: &format!("Hard: {}", terms.edges),
@@ -110,31 +113,31 @@ fn block(suite: &Suite, page: &Canvas, y: i32) -> Drawn {
         error: Point::hard,
         time: &time,
         scale: &scale,
-        none: &none,
+        zero: ["none seen", &none],
         labels: true,
         numbered: true,
     };
-    hard.draw(page, (0, top), (530, ROWS[0]))?;
+    hard.draw(page, (6, top), (530, ROWS[0]))?;
     let natural = Panel {
         title: "Natural: random and camera rays",
-        unit: &wrong,
+        unit: "the same, on the same scale",
         error: Point::natural,
         labels: false,
         numbered: false,
         ..hard
     };
-    natural.draw(page, (530, top), (300, ROWS[0]))?;
+    natural.draw(page, (536, top), (300, ROWS[0]))?;
     legend::front(suite, &points, page, (860, top), (WIDTH - MARGIN - 860, ROWS[0]))?;
 
-    let top = top + ROWS[0];
+    let top = top + ROWS[0] + GAP;
     let ulps = format!("{}: 99 % of the hits err by less", terms.t);
     let rest: [(&str, &str, Error, i32); 2] = [
-        ("Error of t", &ulps, |point| point.t, 0),
+        ("Error of t", &ulps, |point| point.t, 6),
         (
             "Band: the worst misjudged ray",
-            "2^-24 of the scene's size from an edge",
+            "from an edge, in 2⁻²⁴ of the coordinates",
             |point| point.band,
-            355,
+            361,
         ),
     ];
     for (title, unit, error, x) in rest {
@@ -146,14 +149,14 @@ fn block(suite: &Suite, page: &Canvas, y: i32) -> Drawn {
             unit,
             error,
             scale: &scale,
-            none: "",
+            zero: ["0", ""],
             labels: true,
             numbered: false,
             ..hard
         };
         panel.draw(page, (x, top), (355, ROWS[1]))?;
     }
-    levels::draw(suite, page, (730, top), (WIDTH - MARGIN - 730 + 14, ROWS[1]))
+    levels::draw(suite, page, (736, top), (WIDTH - MARGIN - 736 + 14, ROWS[1]))
 }
 
 /// What it was measured with, in lines.
@@ -163,7 +166,8 @@ fn caption(model: &Model) -> Vec<String> {
     let about = "Each point is one variant of a kernel in the fastest of its shapes (one ray, rays in \
         lanes, primitives in lanes) at the best level that it has; time and errors are of the same \
         compiled code in one run. N is the number of rays in each family; of what was not seen in N \
-        rays, the rate is below 3/N with 95 % confidence.";
+        rays, the rate is below 3/N with 95 % confidence; there every \
+        kernel has a line of its own.";
     let paragraphs = [about.to_owned(), machine].into_iter().chain(commands);
     paragraphs.flat_map(|paragraph| NOTE.wrap(&paragraph, WIDTH - 2 * MARGIN)).collect()
 }

@@ -6,7 +6,7 @@ use plotters::style::text_anchor::HPos;
 
 use super::marker::{Marker, ring};
 use super::model::{Error, Point, Suite};
-use super::scale::{Place, Scale};
+use super::scale::{Place, Scale, number};
 use super::style::{
     AXIS, BEATEN, BOLD, CLEAN, Canvas, Drawn, GRID, NOTE, Pixel, Words, color, fill, path,
 };
@@ -24,8 +24,8 @@ pub(super) struct Panel<'a> {
     pub(super) error: Error,
     pub(super) time: &'a Scale,
     pub(super) scale: &'a Scale,
-    /// What it says in the strip.
-    pub(super) none: &'a str,
+    /// What zero is called on the axis, and what it means.
+    pub(super) zero: [&'a str; 2],
     /// Whether its upward axis has numbers.
     pub(super) labels: bool,
     /// Whether the points of the front have numbers.
@@ -46,7 +46,8 @@ impl Map<'_> {
 
     /// The place of a point; kernels have lanes of their own in the strip.
     fn point(&self, point: &Point) -> Option<Pixel> {
-        let lanes = self.panel.suite.kernels.len() as f64;
+        // The lowest is for words.
+        let lanes = self.panel.suite.kernels.len() as f64 + 1.0;
         let y = match (self.panel.error)(point)? {
             value if value > 0.0 => Place::At(value),
             _ => Place::Strip(1.0 - (point.kernel as f64 + 0.5) / lanes),
@@ -72,13 +73,18 @@ impl Panel<'_> {
         let map = Map { panel: self, area: chart.as_coord_spec().clone() };
         let fronts = Suite::front(self.points, self.error);
         self.ground(page, &map, &fronts)?;
+        let label = |place: &Place| match place {
+            _ if !self.labels => String::new(),
+            Place::Strip(_) => self.zero[0].to_owned(),
+            Place::At(value) => number(*value),
+        };
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
             .bold_line_style(GRID)
             .axis_style(AXIS)
             .label_style(NOTE.style())
-            .y_labels(if self.labels { 10 } else { 0 })
+            .y_label_formatter(&label)
             .x_desc("ns per test")
             .draw()?;
         self.lines(page, &map)?;
@@ -93,16 +99,20 @@ impl Panel<'_> {
             let corners = [map.pixel(low, bottom), map.pixel(high, Place::Strip(0.0))];
             fill(page, corners, CLEAN)?;
         }
-        let right = map.pixel(high, top);
+        let floor = map.pixel(low, bottom).1;
+        let (right, top) = map.pixel(high, top);
+        let mut edge = Vec::new();
         for (i, point) in front.iter().enumerate() {
-            let Some((x, mut y)) = map.point(point) else { continue };
-            if (self.error)(point) == Some(0.0) {
-                y = map.pixel(high, Place::Strip(0.0)).1;
-            }
-            let end = front.get(i + 1).map_or(right.0, |next| map.x(next.ns));
-            fill(page, [(x, right.1), (end, y)], BEATEN)?;
+            let Some((x, y)) = map.point(point) else { continue };
+            let y = y.min(floor);
+            let end = front.get(i + 1).map_or(right, |next| map.x(next.ns));
+            fill(page, [(x, top), (end, y)], BEATEN)?;
+            edge.extend([(x, y), (end, y)]);
         }
-        Ok(())
+        if let Some((x, _)) = edge.first() {
+            edge.insert(0, (*x, top));
+        }
+        path(page, edge, AXIS, 1)
     }
 
     /// The front of each kernel by itself.
@@ -132,17 +142,29 @@ impl Panel<'_> {
             }
         }
         if self.numbered {
-            for (i, point) in front.iter().enumerate() {
-                let Some((x, y)) = map.point(point) else { continue };
-                // Nothing can be further to the lower left than the front.
-                let words = Words { align: HPos::Right, ..BOLD };
-                words.write(page, (x - 9, y + 10), &(i + 1).to_string())?;
-            }
+            self.numbers(page, map, front)?;
         }
         if self.scale.has_strip() {
-            let (x, y) = map.pixel(self.time.ends().1, Place::Strip(0.0));
-            let words = Words { align: HPos::Right, size: 11, ..NOTE };
-            words.write(page, (x - 4, y - 8), self.none)?;
+            let (x, y) = map.pixel(self.time.ends().0, Place::Strip(0.0));
+            Words { size: 11, ..NOTE }.write(page, (x + 5, y - 9), self.zero[1])?;
+        }
+        Ok(())
+    }
+
+    /// Numbers the front as far as there is room beside the points.
+    fn numbers(&self, page: &Canvas, map: &Map, front: &[&Point]) -> Drawn {
+        // To the lower left of the front there is nothing else.
+        const OFFSETS: [Pixel; 5] = [(-10, 10), (-13, 0), (-2, 15), (-16, 14), (12, -11)];
+        let near = |a: Pixel, b: Pixel| (a.0 - b.0).abs() < 11 && (a.1 - b.1).abs() < 11;
+        let mut taken: Vec<_> = self.points.iter().filter_map(|point| map.point(point)).collect();
+        for (i, point) in front.iter().enumerate() {
+            let Some((x, y)) = map.point(point) else { continue };
+            let mut places = OFFSETS.iter().map(|(dx, dy)| (x + dx, y + dy));
+            if let Some(at) = places.find(|at| !taken.iter().any(|other| near(*at, *other))) {
+                let words = Words { align: HPos::Center, ..BOLD };
+                words.write(page, at, &(i + 1).to_string())?;
+                taken.push(at);
+            }
         }
         Ok(())
     }

@@ -68,7 +68,7 @@ impl Words {
 
     /// About how wide a text will be, whatever the font: rather too much.
     pub(super) fn width(self, text: &str) -> i32 {
-        let share = if self.bold { 0.62 } else { 0.57 };
+        let share = if self.bold { 0.6 } else { 0.54 };
         (text.chars().count() as f64 * f64::from(self.size) * share).ceil() as i32
     }
 
