@@ -37,16 +37,12 @@ pub(super) fn marks(model: &Model, page: &Canvas, (x, y): Pixel) -> Result<i32, 
     let mut at = x + 6;
     ring(page, (at, y))?;
     grey(best, true).draw(page, (at, y))?;
-    at = say(page, (at + 16, y), "the default: what rt renders with")?;
+    at = say(page, (at + 16, y), "what rt renders with")?;
     path(page, vec![(at, y), (at + 22, y)], FAINT, 2)?;
     at = say(page, (at + 30, y), "the best of one kernel; its other variants are pale")?;
     fill(page, [(at, y - 8), (at + 22, y + 8)], BEATEN)?;
     path(page, vec![(at, y - 8), (at, y + 8), (at + 22, y + 8)], AXIS, 1)?;
-    say(
-        page,
-        (at + 30, y),
-        "grey: behind the Pareto front, where another is faster and errs less",
-    )?;
+    say(page, (at + 30, y), "grey: another is faster and errs less (the Pareto front)")?;
     Ok(y + 26)
 }
 

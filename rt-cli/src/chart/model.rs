@@ -250,3 +250,175 @@ fn about(row: &Row) -> String {
     let (kernel, variant, level) = (&row.kernel.0, &row.variant.0, row.level.name());
     format!("{kernel} ({variant}) at {level}, family {}", row.family.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+
+    /// A row, but for what is given.
+    fn row(given: Value) -> Value {
+        let mut row = json!({
+            "suite": "triangle", "kernel": "k", "variant": "v", "default": false, "exact": true,
+            "level": "scalar", "shape": "one", "width": 1, "family": "edge", "kind": "closed",
+            "seed": 1, "scale": 1.0, "offset": 0.0, "rays": 1000, "leaks": 0, "double_hits": 0,
+            "false_hits": 0, "false_misses": 0, "nan_hits": 0,
+            "t_ulp": { "p50": 0.5, "p99": 2.0, "max": 3.0 }, "fair": true, "band": 1.0, "ns": 1.0,
+        });
+        for (key, value) in given.as_object().expect("an object") {
+            row[key] = value.clone();
+        }
+        row
+    }
+
+    fn file(rows: &[Value]) -> Measured {
+        let json = json!({ "machine": "m", "command": "c", "rows": rows });
+        serde_json::from_value(json).expect("rows")
+    }
+
+    fn model(rows: &[Value]) -> Result<Model, String> {
+        Model::new(vec![file(rows)])
+    }
+
+    fn points(rows: &[Value]) -> Vec<Point> {
+        model(rows).expect("a model").suites.remove(0).points
+    }
+
+    #[test]
+    fn the_worst_family_counts_and_is_named() {
+        let points = points(&[
+            row(json!({ "family": "edge", "leaks": 20 })),
+            // A higher rate with fewer leaks.
+            row(json!({ "family": "vertex", "leaks": 10, "rays": 100 })),
+            row(json!({ "family": "far", "leaks": 0 })),
+            row(json!({ "family": "random", "kind": "natural", "leaks": 1 })),
+            // Others do not count: they are not of closed meshes.
+            row(json!({ "family": "band", "kind": "single", "leaks": 1000 })),
+            row(json!({ "family": "nan", "kind": "broken", "leaks": 1000 })),
+        ]);
+        let rate = |per_million, family: &str| Some(Rate { per_million, family: family.into() });
+        assert_eq!(points.len(), 1);
+        assert_eq!(points[0].hard, rate(100_000.0, "vertex"));
+        assert_eq!(points[0].natural, rate(1000.0, "random"));
+    }
+
+    #[test]
+    fn boxes_must_not_miss_and_quadrics_must_be_right() {
+        let wrong = |suite: &str| {
+            let counts = json!({ "suite": suite, "kind": "single", "leaks": 5, "false_hits": 30,
+                "false_misses": 200 });
+            points(&[row(counts)])[0].hard().expect("a rate")
+        };
+        assert_eq!(wrong("box"), 200_000.0);
+        assert_eq!(wrong("quadric"), 230_000.0);
+    }
+
+    #[test]
+    fn errors_of_t_count_where_they_are_fair_and_bands_where_numbers_are() {
+        let p99 = |p99: f64| json!({ "p50": 0.0, "p99": p99, "max": null });
+        let points = points(&[
+            row(json!({ "t_ulp": p99(3.0), "band": 4.0 })),
+            row(json!({ "t_ulp": p99(9.0), "band": 7.0, "fair": false, "kind": "single" })),
+            row(json!({ "t_ulp": p99(99.0), "band": 99.0, "kind": "broken" })),
+        ]);
+        assert_eq!((points[0].t, points[0].band), (Some(3.0), Some(7.0)));
+        let unfair = row(json!({ "fair": false, "band": null }));
+        let points = self::points(&[unfair]);
+        assert_eq!((points[0].t, points[0].band), (None, Some(f64::INFINITY)));
+    }
+
+    #[test]
+    fn the_fastest_shape_stands_for_a_variant_with_its_own_errors() {
+        let points = points(&[
+            row(json!({ "level": "sse2", "width": 4, "shape": "one", "ns": 3.0, "leaks": 1 })),
+            row(json!({ "level": "sse2", "width": 4, "shape": "rays", "ns": 1.0, "leaks": 2 })),
+            row(
+                json!({ "level": "sse2", "width": 4, "shape": "primitives", "ns": 2.0, "leaks": 3 }),
+            ),
+            row(json!({ "level": "scalar", "ns": 9.0, "leaks": 4 })),
+        ]);
+        let found: Vec<_> =
+            points.iter().map(|point| (point.level.name(), point.ns, point.hard())).collect();
+        assert_eq!(found, [("scalar", 9.0, Some(4000.0)), ("sse2", 1.0, Some(2000.0))]);
+    }
+
+    #[test]
+    fn each_variant_is_shown_at_the_best_level_that_it_has() {
+        let mut model = model(&[
+            row(json!({ "variant": "a", "level": "avx2", "width": 8 })),
+            row(json!({ "variant": "a", "level": "sse4.1", "width": 4 })),
+            row(json!({ "variant": "b", "level": "scalar" })),
+        ])
+        .expect("a model");
+        let suite = model.suites.remove(0);
+        let best: Vec<_> =
+            suite.best().map(|point| (&*point.variant, point.level.name())).collect();
+        assert_eq!(best, [("a", "avx2"), ("b", "scalar")]);
+        // The variant at the most levels stands for the kernel.
+        let levels = suite.at_levels();
+        assert_eq!((levels.len(), &*levels[0][0].variant, levels[0].len()), (1, "a", 2));
+    }
+
+    #[test]
+    fn the_default_comes_first_and_stands_for_its_kernel() {
+        let mut model = model(&[
+            row(json!({ "kernel": "a", "variant": "leaky", "leaks": 9, "ns": 0.1 })),
+            row(json!({ "kernel": "a", "variant": "tight", "ns": 0.2 })),
+            row(json!({ "kernel": "z", "variant": "tight" })),
+            row(json!({ "kernel": "z", "variant": "own", "default": true, "leaks": 1 })),
+        ])
+        .expect("a model");
+        let suite = model.suites.remove(0);
+        assert_eq!(suite.kernels, ["z", "a"]);
+        let shown: Vec<_> = suite.at_levels().iter().map(|row| row[0].variant.clone()).collect();
+        assert_eq!(shown, ["own", "tight"]);
+    }
+
+    #[test]
+    fn only_what_was_judged_can_be_on_the_front() {
+        let points = points(&[
+            row(json!({ "variant": "a", "kind": "single", "ns": 0.1 })),
+            row(json!({ "variant": "b", "ns": 0.5, "leaks": 7 })),
+            row(json!({ "variant": "c", "ns": 0.6, "leaks": 7 })),
+            row(json!({ "variant": "d", "ns": 0.7 })),
+        ]);
+        let points: Vec<_> = points.iter().collect();
+        let front = Suite::front(&points, Point::hard);
+        let names: Vec<_> = front.iter().map(|point| &*point.variant).collect();
+        assert_eq!(names, ["b", "d"]);
+    }
+
+    #[test]
+    fn the_least_number_of_rays_tells_what_none_seen_means() {
+        let rows = [row(json!({ "rays": 500 })), row(json!({ "rays": 300, "family": "far" }))];
+        assert_eq!(model(&rows).expect("a model").suites[0].rays, 300);
+    }
+
+    #[test]
+    fn contradictions_are_told() {
+        let twice = |given: Value| model(&[row(json!({})), row(given)]).expect_err("an error");
+        let lead = "k (v) at scalar, family edge: ";
+        let times = "two times for the same code, 1 and 2 ns";
+        assert_eq!(twice(json!({ "ns": 2.0 })), format!("{lead}{times}"));
+        let differ = "rows differ in \"default\" or \"exact\"";
+        assert_eq!(twice(json!({ "exact": false })), format!("{lead}{differ}"));
+        assert_eq!(twice(json!({ "default": true })), format!("{lead}{differ}"));
+        for count in ["leaks", "false_hits", "false_misses"] {
+            let wrong = "1001 of 1000 rays went wrong";
+            assert_eq!(twice(json!({ count: 1001 })), format!("{lead}{wrong}"));
+        }
+        assert_eq!(model(&[]).expect_err("an error"), "there are no rows");
+    }
+
+    #[test]
+    fn files_are_drawn_together_if_they_are_of_one_machine() {
+        let boxes = [row(json!({ "suite": "box" }))];
+        let together = Model::new(vec![file(&[row(json!({}))]), file(&boxes)]).expect("a model");
+        assert_eq!((together.counts(), together.commands.len()), ([2, 2, 2], 1));
+        let mut other = file(&boxes);
+        other.machine = Text::from("n".to_owned());
+        let error = Model::new(vec![file(&boxes), other]).expect_err("an error");
+        assert_eq!(error, "two machines in one chart: \"m\" and \"n\"");
+    }
+}

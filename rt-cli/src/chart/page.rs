@@ -97,7 +97,7 @@ fn block(suite: &Suite, page: &Canvas, y: i32) -> Drawn {
     legend::kernels(suite, page, (MARGIN + 150, y + 13), WIDTH - 2 * MARGIN - 150)?;
 
     let points: Vec<_> = suite.best().collect();
-    let time = Scale::around(points.iter().map(|point| point.ns), 6);
+    let time = Scale::around(points.iter().map(|point| point.ns), 7);
     let rates = points.iter().flat_map(|point| [point.hard(), point.natural()]).flatten();
     let lanes = suite.kernels.len() as f64;
     let strip = ((lanes + 1.0) * 15.0).min(140.0) / f64::from(ROWS[0] - 86);

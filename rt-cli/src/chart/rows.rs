@@ -136,3 +136,64 @@ fn time<'de, D: Deserializer<'de>>(json: D) -> Result<f64, D::Error> {
         None => Err(Error::custom("expected a time above 0, found null")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = r#"{"machine": "m", "command": "c", "rows": [
+{"suite": "triangle", "kernel": "k", "variant": "", "default": false, "exact": true, "more": 0,
+"level": "avx2", "shape": "rays", "width": 8, "family": "edge", "kind": "closed", "rays": 10,
+"leaks": 1, "false_hits": 2, "false_misses": 3, "t_ulp": {"p99": 2.5}, "fair": true, "band": 1,
+"ns": 0.5}
+]}"#;
+
+    #[test]
+    fn rows_are_read() {
+        let file = Measured::parse(FILE.as_bytes()).unwrap();
+        let row = &file.rows[0];
+        assert_eq!((row.level.name(), row.rays.get(), row.leaks), ("avx2", 10, 1));
+        assert_eq!((row.t_ulp.p99, row.band, row.ns), (2.5, 1.0, 0.5));
+        let unbounded = FILE.replace("2.5", "null");
+        let file = Measured::parse(unbounded.as_bytes()).unwrap();
+        assert_eq!(file.rows[0].t_ulp.p99, f64::INFINITY);
+    }
+
+    #[test]
+    fn what_is_no_row_is_told_with_its_line() {
+        let time = "expected a time above 0, found";
+        let levels = Level::NAMES.join(", ");
+        for (from, to, line, message) in [
+            ("\"ns\": 0.5", "\"ns\": 0", 5, format!("{time} 0")),
+            ("\"ns\": 0.5", "\"ns\": -1", 5, format!("{time} -1")),
+            ("\"ns\": 0.5", "\"ns\": null", 5, format!("{time} null")),
+            ("\"ns\": 0.5", "\"ns\": NaN", 5, "expected value".into()),
+            ("\"ns\": 0.5", "\"ns\": 1e999", 5, "number out of range".into()),
+            ("\"ns\": 0.5", "\"no\": 0.5", 5, "missing field `ns`".into()),
+            ("\"band\": 1", "\"bund\": 1", 5, "missing field `band`".into()),
+            ("\"p99\"", "\"p98\"", 4, "missing field `p99`".into()),
+            ("2.5", "-2.5", 4, "expected null or a number from 0 up, found -2.5".into()),
+            ("\"leaks\": 1", "\"leaks\": -1", 4, "invalid value: integer `-1`".into()),
+            ("\"leaks\": 1", "\"leaks\": 0.5", 4, "invalid type: floating point `0.5`".into()),
+            ("\"rays\": 10", "\"rays\": 0", 3, "invalid value: integer `0`".into()),
+            ("true, \"more", "1, \"more", 2, "invalid type: integer `1`, expected a bool".into()),
+            ("avx2", "avx3", 3, format!("\"avx3\" is no level: expected {levels}")),
+            ("closed", "open", 3, "unknown variant `open`".into()),
+            ("\"machine\": \"m\", ", "", 6, "missing field `machine`".into()),
+            ("]}", "]", 6, "EOF while parsing an object".into()),
+            ("[", "3, [", 1, "invalid type: integer `3`, expected a sequence".into()),
+        ] {
+            assert!(FILE.contains(from), "{from}");
+            let error = Measured::parse(FILE.replacen(from, to, 1).as_bytes()).unwrap_err();
+            assert!(error.to_string().starts_with(&message), "{to}: {error}");
+            assert_eq!(error.line(), line, "{to}: {error}");
+        }
+    }
+
+    #[test]
+    fn words_can_stand_in_xml() {
+        let text = |text: &str| Text::from(text.to_owned()).0;
+        assert_eq!(text("a<b> & ×"), "a<b> & ×");
+        assert_eq!(text("a\u{1}\n\u{ffff}b"), "a\u{fffd}\u{fffd}\u{fffd}b");
+    }
+}

@@ -116,3 +116,21 @@ pub(super) fn path(
 pub(super) fn fill(canvas: &Canvas, corners: [Pixel; 2], color: RGBColor) -> Drawn {
     canvas.draw(&Rectangle::new(corners, color.filled()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_have_room_or_are_cut() {
+        assert_eq!(PLAIN.fit("short", 200), "short");
+        let long = "x".repeat(500);
+        for width in [0, 10, 50, 300] {
+            let cut = PLAIN.fit(&long, width);
+            assert!(cut.ends_with('…') && PLAIN.width(&cut) <= width.max(10), "{width}: {cut}");
+        }
+        let lines = PLAIN.wrap(&format!("one two {long} three"), 100);
+        assert!(lines.iter().all(|line| PLAIN.width(line) <= 100), "{lines:?}");
+        assert_eq!((&*lines[0], &*lines[lines.len() - 1]), ("one two", "three"));
+    }
+}

@@ -4,6 +4,7 @@
 
 mod bad_input;
 mod bench;
+mod chart;
 mod flags;
 mod generate;
 mod info;
