@@ -54,12 +54,17 @@ fn say(page: &Canvas, at: Pixel, text: &str) -> Result<i32, Failed> {
     Ok(at.0 + PLAIN.width(text) + 24)
 }
 
-/// The kernels of a suite and their colours, in a line.
+/// The kernels of a suite and their colours, in a line: as many as it holds.
 pub(super) fn kernels(suite: &Suite, page: &Canvas, (mut x, y): Pixel, width: i32) -> Drawn {
-    let room = width / i32::try_from(suite.kernels.len()).unwrap_or(i32::MAX) - 40;
+    let end = x + width - 100;
+    let room = width / i32::try_from(suite.kernels.len().max(1)).unwrap_or(i32::MAX) - 40;
     for (kernel, name) in suite.kernels.iter().enumerate() {
+        let name = BOLD.fit(name, room.max(60));
+        if x + BOLD.width(&name) > end && kernel + 1 < suite.kernels.len() {
+            let rest = suite.kernels.len() - kernel;
+            return NOTE.write(page, (x, y), &format!("and {rest} more"));
+        }
         fill(page, [(x, y - 6), (x + 12, y + 6)], color(kernel))?;
-        let name = BOLD.fit(name, room);
         BOLD.write(page, (x + 18, y), &name)?;
         x += 40 + BOLD.width(&name);
     }

@@ -35,14 +35,21 @@ pub(super) fn draw(suite: &Suite, page: &Canvas, (x, y): Pixel, (width, height):
     path(page, vec![(left, bottom), (right, bottom)], AXIS, 1)?;
     middle.write(page, ((left + right) / 2, bottom + 31), "ns per test")?;
 
+    let pitch = (bottom - top) / i32::try_from(rows.len().max(1)).unwrap_or(i32::MAX);
     for (i, row) in rows.iter().enumerate() {
         let share = (i as f64 + 0.5) / rows.len() as f64;
         let y = top + (f64::from(bottom - top) * share).round() as i32;
         let kernel = row[0].kernel;
         let name = PLAIN.fit(&suite.kernels[kernel], NAMES - 16);
         let variant = NOTE.fit(&row[0].variant, NAMES - 16);
-        Words { color: color(kernel), ..BOLD }.write(page, (x + 4, y - 7), &name)?;
-        NOTE.write(page, (x + 4, y + 8), &variant)?;
+        // With little room only the name, with less nothing.
+        let name_at = if pitch < 30 { y } else { y - 7 };
+        if pitch >= 13 {
+            Words { color: color(kernel), ..BOLD }.write(page, (x + 4, name_at), &name)?;
+        }
+        if pitch >= 30 {
+            NOTE.write(page, (x + 4, y + 8), &variant)?;
+        }
         let places: Vec<_> = row.iter().map(|point| (at(point.ns), y)).collect();
         path(page, places.clone(), color(kernel), 2)?;
         if let (true, Some(best)) = (row[0].default, places.last()) {

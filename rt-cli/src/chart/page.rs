@@ -166,8 +166,9 @@ fn caption(model: &Model) -> Vec<String> {
     let about = "Each point is one variant of a kernel in the fastest of its shapes (one ray, rays in \
         lanes, primitives in lanes) at the best level that it has; time and errors are of the same \
         compiled code in one run. N is the number of rays in each family; of what was not seen in N \
-        rays, the rate is below 3/N with 95 % confidence; there every \
-        kernel has a line of its own.";
+        rays, the rate is below 3/N with 95 % confidence; there every kernel has a line of its own. \
+        An ulp is a unit in the last place of the exact t. The band is how far beside an edge a ray \
+        was still misjudged, in units of 2⁻²⁴ of the greatest coordinate.";
     let paragraphs = [about.to_owned(), machine].into_iter().chain(commands);
     paragraphs.flat_map(|paragraph| NOTE.wrap(&paragraph, WIDTH - 2 * MARGIN)).collect()
 }

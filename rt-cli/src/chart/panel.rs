@@ -71,8 +71,8 @@ impl Panel<'_> {
         builder.margin_top(HEAD).margin_right(14).x_label_area_size(42).y_label_area_size(left);
         let mut chart = builder.build_cartesian_2d(self.time.clone(), self.scale.clone())?;
         let map = Map { panel: self, area: chart.as_coord_spec().clone() };
-        let fronts = Suite::front(self.points, self.error);
-        self.ground(page, &map, &fronts)?;
+        let front = Suite::front(self.points, self.error);
+        self.ground(page, &map, &front)?;
         let label = |place: &Place| match place {
             _ if !self.labels => String::new(),
             Place::Strip(_) => self.zero[0].to_owned(),
@@ -87,8 +87,12 @@ impl Panel<'_> {
             .y_label_formatter(&label)
             .x_desc("ns per test")
             .draw()?;
+        if front.is_empty() {
+            let words = Words { align: HPos::Center, ..NOTE };
+            return words.write(page, (x + (left + width) / 2, y + height / 2), "not measured");
+        }
         self.lines(page, &map)?;
-        self.marks(page, &map, &fronts)
+        self.marks(page, &map, &front)
     }
 
     /// The strip, and what is beaten by the front.

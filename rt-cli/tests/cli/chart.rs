@@ -155,7 +155,14 @@ fn all_is_on_the_page_and_no_text_on_another() {
             assert!((0.0..=width).contains(&x) && (0.0..=height).contains(&y), "{node:?}");
         }
     }
-    let boxes: Vec<_> = texts(&svg)
+    assert_no_overlap(&svg);
+}
+
+/// No text lies on another, or goes over the edge of the page.
+#[track_caller]
+fn assert_no_overlap(svg: &Document) {
+    let page = number(svg.root_element(), "width");
+    let boxes: Vec<_> = texts(svg)
         .into_iter()
         .map(|(node, text)| {
             let size = number(node, "font-size");
@@ -172,7 +179,7 @@ fn all_is_on_the_page_and_no_text_on_another() {
         .collect();
     let overlap = |a: [f64; 2], b: [f64; 2]| a[0] < b[1] && b[0] < a[1];
     for (i, (text, x, y)) in boxes.iter().enumerate() {
-        assert!(x[0] >= 0.0 && x[1] <= width, "{text:?} goes over the edge: {x:?}");
+        assert!(x[0] >= 0.0 && x[1] <= page, "{text:?} goes over the edge: {x:?}");
         for (other, other_x, other_y) in &boxes[i + 1..] {
             let both = overlap(*x, *other_x) && overlap(*y, *other_y);
             assert!(!both, "{text:?} lies on {other:?}");
@@ -252,6 +259,7 @@ fn strange_rows_are_drawn_all_the_same() {
         let svg = chart(&scratch, &["a.json"]).exits(0).text();
         let svg = Document::parse(&svg).expect("well-formed XML");
         assert!(svg.descendants().count() > 50);
+        assert_no_overlap(&svg);
     }
 }
 
