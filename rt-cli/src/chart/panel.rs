@@ -159,12 +159,14 @@ impl Panel<'_> {
     fn numbers(&self, page: &Canvas, map: &Map, front: &[&Point]) -> Drawn {
         // To the lower left of the front there is nothing else.
         const OFFSETS: [Pixel; 5] = [(-10, 10), (-13, 0), (-2, 15), (-16, 14), (12, -11)];
+        let (left, _) = map.pixel(self.time.ends().0, self.scale.ends().0);
         let near = |a: Pixel, b: Pixel| (a.0 - b.0).abs() < 11 && (a.1 - b.1).abs() < 11;
         let mut taken: Vec<_> = self.points.iter().filter_map(|point| map.point(point)).collect();
         for (i, point) in front.iter().enumerate() {
             let Some((x, y)) = map.point(point) else { continue };
             let mut places = OFFSETS.iter().map(|(dx, dy)| (x + dx, y + dy));
-            if let Some(at) = places.find(|at| !taken.iter().any(|other| near(*at, *other))) {
+            let free = |at: &Pixel| at.0 > left + 6 && !taken.iter().any(|other| near(*at, *other));
+            if let Some(at) = places.find(free) {
                 let words = Words { align: HPos::Center, ..BOLD };
                 words.write(page, at, &(i + 1).to_string())?;
                 taken.push(at);
