@@ -1,12 +1,12 @@
 //! The times of one variant of each kernel at all of its levels.
 
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::style::text_anchor::HPos;
 
 use super::marker::{Marker, ring};
 use super::model::Suite;
 use super::scale::{Place, Scale};
 use super::style::{AXIS, BOLD, Canvas, Drawn, GRID, NOTE, PLAIN, Pixel, Words, color, path};
-use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 
 /// The height of the two lines above.
 const HEAD: i32 = 44;

@@ -1,5 +1,6 @@
 //! Time against one kind of error.
 
+use plotters::coord::CoordTranslate;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
@@ -40,7 +41,6 @@ struct Map<'a> {
 
 impl Map<'_> {
     fn pixel(&self, x: Place, y: Place) -> Pixel {
-        use plotters::coord::CoordTranslate;
         self.area.translate(&(x, y))
     }
 
@@ -139,7 +139,7 @@ impl Panel<'_> {
                 if point.default && !faded {
                     ring(page, at)?;
                 }
-                if faded == !(among(&own, point) || point.default) {
+                if faded != (among(&own, point) || point.default) {
                     let (level, color, filled) = (point.level, color(point.kernel), point.exact);
                     Marker { level, color, filled, faded }.draw(page, at)?;
                 }

@@ -1,7 +1,7 @@
 //! `rt chart`.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::args::ChartArgs;
 use crate::chart::{Measured, Model, svg};
@@ -25,7 +25,7 @@ pub(crate) fn run(args: &ChartArgs) -> Result<(), Error> {
     Ok(())
 }
 
-fn read(path: &PathBuf) -> Result<Measured, Error> {
-    let file = fs::read(path).map_err(|source| Error::Read { path: path.clone(), source })?;
-    Measured::parse(&file).map_err(|source| Error::Rows { path: path.clone(), source })
+fn read(path: &Path) -> Result<Measured, Error> {
+    let file = fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+    Measured::parse(&file).map_err(|source| Error::Rows { path: path.into(), source })
 }
