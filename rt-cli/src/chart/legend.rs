@@ -111,7 +111,7 @@ fn figures(point: &Point) -> String {
     let errors = match &point.hard {
         None => "not judged".to_owned(),
         Some(Rate { per_million, .. }) if *per_million == 0.0 => "none seen".to_owned(),
-        Some(Rate { per_million, family }) => format!("{} ({family})", number(*per_million)),
+        Some(Rate { per_million, family, .. }) => format!("{} ({family})", number(*per_million)),
     };
     format!("{} ns, {errors}", number(point.ns))
 }

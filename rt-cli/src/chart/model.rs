@@ -25,8 +25,6 @@ pub(super) struct Suite {
     pub(super) kernels: Vec<String>,
     /// By kernel, variant and level.
     pub(super) points: Vec<Point>,
-    /// The least number of rays in any family.
-    pub(super) rays: u64,
 }
 
 /// One variant of a kernel at one level.
@@ -50,11 +48,13 @@ pub(super) struct Point {
     pub(super) band: Option<f64>,
 }
 
-/// How often something went wrong, and in which family.
+/// How often something went wrong in the worst of some families, and in which.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Rate {
     pub(super) per_million: f64,
     pub(super) family: String,
+    /// The least number of rays in any of the families.
+    pub(super) rays: u64,
 }
 
 /// One of the errors of a point.
@@ -110,7 +110,6 @@ type Key = (Text, Text, LevelIndex, Shape, u32);
 
 impl Suite {
     fn new(kind: SuiteKind, rows: Vec<Row>) -> Result<Suite, String> {
-        let rays = rows.iter().map(|row| row.rays.get()).min().unwrap_or(1);
         let mut kernels: Vec<_> = rows.iter().map(|row| (!row.default, &row.kernel.0)).collect();
         kernels.sort();
         let mut names: Vec<String> = Vec::new();
@@ -145,7 +144,7 @@ impl Suite {
                 Entry::Occupied(_) => {}
             }
         }
-        Ok(Suite { kind, kernels: names, points: points.into_values().collect(), rays })
+        Ok(Suite { kind, kernels: names, points: points.into_values().collect() })
     }
 
     /// Each variant at the best level that it has.
@@ -239,9 +238,13 @@ fn worst(rate: &mut Option<Rate>, suite: SuiteKind, row: &Row) {
         SuiteKind::Box => row.false_misses,
         SuiteKind::Quadric => row.false_hits + row.false_misses,
     };
-    let per_million = wrong as f64 * 1e6 / row.rays.get() as f64;
-    if rate.as_ref().is_none_or(|rate| per_million > rate.per_million) {
-        *rate = Some(Rate { per_million, family: row.family.0.clone() });
+    let rays = row.rays.get();
+    let per_million = wrong as f64 * 1e6 / rays as f64;
+    let family = &row.family.0;
+    let rate = rate.get_or_insert_with(|| Rate { per_million, family: family.clone(), rays });
+    rate.rays = rate.rays.min(rays);
+    if per_million > rate.per_million {
+        (rate.per_million, rate.family) = (per_million, family.clone());
     }
 }
 
@@ -297,10 +300,12 @@ mod tests {
             row(json!({ "family": "band", "kind": "single", "leaks": 1000 })),
             row(json!({ "family": "nan", "kind": "broken", "leaks": 1000 })),
         ]);
-        let rate = |per_million, family: &str| Some(Rate { per_million, family: family.into() });
+        let rate = |per_million, family: &str, rays| {
+            Some(Rate { per_million, family: family.into(), rays })
+        };
         assert_eq!(points.len(), 1);
-        assert_eq!(points[0].hard, rate(100_000.0, "vertex"));
-        assert_eq!(points[0].natural, rate(1000.0, "random"));
+        assert_eq!(points[0].hard, rate(100_000.0, "vertex", 100));
+        assert_eq!(points[0].natural, rate(1000.0, "random", 1000));
     }
 
     #[test]
@@ -387,12 +392,6 @@ mod tests {
         let front = Suite::front(&points, Point::hard);
         let names: Vec<_> = front.iter().map(|point| &*point.variant).collect();
         assert_eq!(names, ["b", "d"]);
-    }
-
-    #[test]
-    fn the_least_number_of_rays_tells_what_none_seen_means() {
-        let rows = [row(json!({ "rays": 500 })), row(json!({ "rays": 300, "family": "far" }))];
-        assert_eq!(model(&rows).expect("a model").suites[0].rays, 300);
     }
 
     #[test]

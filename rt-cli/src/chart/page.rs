@@ -2,7 +2,7 @@
 
 use plotters::prelude::*;
 
-use super::model::{Error, Model, Point, Suite};
+use super::model::{Error, Model, Point, Rate, Suite};
 use super::panel::Panel;
 use super::rows::SuiteKind;
 use super::scale::{Scale, number};
@@ -102,7 +102,8 @@ fn block(suite: &Suite, page: &Canvas, y: i32) -> Drawn {
     let lanes = suite.kernels.len() as f64;
     let strip = ((lanes + 1.0) * 15.0).min(140.0) / f64::from(ROWS[0] - 86);
     let scale = Scale::decades(rates.chain([1e6]), 1e6, strip);
-    let none = format!("fewer than 3/N = {} per million", number(3e6 / suite.rays as f64));
+    let none_hard = none(points.iter().filter_map(|point| point.hard.as_ref()));
+    let none_natural = none(points.iter().filter_map(|point| point.natural.as_ref()));
     let top = y + TITLE;
     let wrong = format!("{} per million in the worst family", terms.wrong);
     let hard = Panel {
@@ -113,7 +114,7 @@ fn block(suite: &Suite, page: &Canvas, y: i32) -> Drawn {
         error: Point::hard,
         time: &time,
         scale: &scale,
-        zero: ["none seen", &none],
+        zero: ["none seen", &none_hard],
         labels: true,
         numbered: true,
     };
@@ -122,6 +123,7 @@ fn block(suite: &Suite, page: &Canvas, y: i32) -> Drawn {
         title: "Natural: random and camera rays",
         unit: "the same, on the same scale",
         error: Point::natural,
+        zero: ["none seen", &none_natural],
         labels: false,
         numbered: false,
         ..hard
@@ -157,6 +159,14 @@ fn block(suite: &Suite, page: &Canvas, y: i32) -> Drawn {
         panel.draw(page, (x, top), (355, ROWS[1]))?;
     }
     levels::draw(suite, page, (736, top), (WIDTH - MARGIN - 736 + 14, ROWS[1]))
+}
+
+/// What it means that nothing was seen.
+fn none<'a>(rates: impl Iterator<Item = &'a Rate>) -> String {
+    let rays = rates.map(|rate| rate.rays).min();
+    rays.map_or(String::new(), |n| {
+        format!("fewer than 3/N = {} per million", number(3e6 / n as f64))
+    })
 }
 
 /// What it was measured with, in lines.
