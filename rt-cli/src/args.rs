@@ -34,6 +34,7 @@ pub(crate) enum Command {
     Info(InfoArgs),
     Bench(BenchArgs),
     Accuracy(AccuracyArgs),
+    Chart(ChartArgs),
 }
 
 /// Render one picture of a scene.
@@ -247,28 +248,61 @@ pub(crate) struct BenchArgs {
     rt accuracy --quick\n  \
     rt accuracy --json accuracy.json && rt chart --from accuracy.json -o chart.svg")]
 pub(crate) struct AccuracyArgs {
-    /// Fewer rays: a few seconds.
+    #[command(flatten)]
+    pub(crate) measure: MeasureArgs,
+    /// Write all rows to a .json file too; - for standard output, where no table is then.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+/// How much to measure.
+#[derive(Group)]
+#[group(multiple = true)]
+pub(crate) struct MeasureArgs {
+    /// Fewer rays: some seconds.
     #[arg(long)]
-    pub(crate) quick: bool,
+    quick: bool,
     /// Rays of each family [default: 1000000, or 8192 with --quick].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     rays: Option<u32>,
     /// Which random numbers to use.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Write all rows to a .json file too; - for standard output, where no table is then.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) json: Option<PathBuf>,
     /// Say nothing but errors.
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }
 
-impl AccuracyArgs {
+impl MeasureArgs {
     /// Rays of each family.
     pub(crate) fn rays(&self) -> usize {
         self.rays.unwrap_or(if self.quick { 8_192 } else { 1_000_000 }) as usize
     }
+
+    /// How often everything is timed.
+    pub(crate) fn rounds(&self) -> usize {
+        if self.quick { 5 } else { 21 }
+    }
+}
+
+/// Draw speed against accuracy: what every kernel costs and how often it is wrong.
+///
+/// Measures as rt accuracy does, or takes files that rt accuracy --json has written, all of one
+/// machine. The picture is SVG.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt chart --quick -o accuracy.svg\n  \
+    rt chart --from accuracy.json -o accuracy.svg\n  \
+    rt chart --from triangles.json boxes.json -o accuracy.svg")]
+pub(crate) struct ChartArgs {
+    /// The .json files to draw, together; nothing is measured then.
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["quick", "rays", "seed"])]
+    pub(crate) from: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) measure: MeasureArgs,
+    /// The .svg file to write; - for standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]

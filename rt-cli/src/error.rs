@@ -21,6 +21,25 @@ pub(crate) enum Error {
         /// Why not, and what there is.
         source: rt_render::LevelError,
     },
+    /// A file of measured rows cannot be read.
+    #[error("cannot read {}: {}", path.display(), reason(source))]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A file is not one of measured rows.
+    #[error("{}:{}:{}: {}", path.display(), source.line(), source.column(), complaint(source))]
+    Rows {
+        /// The file.
+        path: PathBuf,
+        /// Where, and what is wrong there.
+        source: serde_json::Error,
+    },
+    /// Measured rows do not make a chart.
+    #[error("no chart: {0}")]
+    Chart(String),
     /// A file cannot be written.
     #[error("cannot write {}: {}", path.display(), reason(source))]
     Write {
@@ -69,8 +88,14 @@ impl Error {
 
     /// Whether its text begins with the place that it is about.
     pub(crate) fn has_place(&self) -> bool {
-        matches!(self, Error::Scene(rt_scene::Error::Invalid(_)))
+        matches!(self, Error::Scene(rt_scene::Error::Invalid(_)) | Error::Rows { .. })
     }
+}
+
+/// What is wrong with JSON, without the place.
+fn complaint(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    text.rsplit_once(" at line ").map_or(text.clone(), |(words, _)| words.to_owned())
 }
 
 /// The system's words without its error number.

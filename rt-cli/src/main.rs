@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod args;
+mod chart;
 mod cmd;
 mod error;
 mod output;
@@ -21,6 +22,7 @@ fn main() -> ExitCode {
         args::Command::Info(args) => cmd::info::run(args),
         args::Command::Bench(args) => cmd::bench::run(args),
         args::Command::Accuracy(args) => cmd::accuracy::run(args),
+        args::Command::Chart(args) => cmd::chart::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -12,14 +12,14 @@ use rt_accuracy::{
 use rt_render::Level;
 use serde_json::{Value, json};
 
-use crate::args::{AccuracyArgs, best_level};
+use crate::args::{AccuracyArgs, MeasureArgs, best_level};
 use crate::error::Error;
 use crate::{output, ui};
 
 /// Measures, and complains of what is worse than it should be.
 pub(crate) fn run(args: &AccuracyArgs) -> Result<(), Error> {
     let json = args.json.as_deref().map(output::open_json).transpose()?;
-    let measured = Measured::new(&Task::of(args))?;
+    let measured = Measured::new(&args.measure)?;
     if args.json.as_deref() != Some(Path::new("-")) {
         output::to_stdout(measured.table.as_bytes())?;
     }
@@ -33,21 +33,6 @@ pub(crate) fn run(args: &AccuracyArgs) -> Result<(), Error> {
     }
 }
 
-/// What to measure.
-pub(crate) struct Task {
-    rays: usize,
-    rounds: usize,
-    seed: u64,
-    quiet: bool,
-}
-
-impl Task {
-    fn of(args: &AccuracyArgs) -> Task {
-        let rounds = if args.quick { 5 } else { 21 };
-        Task { rays: args.rays(), rounds, seed: args.seed, quiet: args.quiet }
-    }
-}
-
 /// What came of it.
 pub(crate) struct Measured {
     /// All rows, as `--json` has them.
@@ -58,7 +43,7 @@ pub(crate) struct Measured {
 
 impl Measured {
     /// Every kernel, every way, in every family.
-    pub(crate) fn new(task: &Task) -> Result<Measured, Error> {
+    pub(crate) fn new(args: &MeasureArgs) -> Result<Measured, Error> {
         let command: Vec<_> = std::env::args().skip(1).collect();
         let json = json!({
             "command": format!("rt {}", command.join(" ")),
@@ -68,28 +53,28 @@ impl Measured {
         });
         let mut measured = Measured { json, table: String::new(), complaints: Vec::new() };
         let level = best_level()?;
-        measured.add::<TriangleFamily>(task, level);
-        measured.add::<BoxFamily>(task, level);
-        measured.add::<QuadricFamily>(task, level);
+        measured.add::<TriangleFamily>(args, level);
+        measured.add::<BoxFamily>(args, level);
+        measured.add::<QuadricFamily>(args, level);
         Ok(measured)
     }
 
-    fn add<F: Family>(&mut self, task: &Task, level: Level) {
+    fn add<F: Family>(&mut self, args: &MeasureArgs, level: Level) {
         let subjects = subjects::<F>();
         let mut rows = Vec::new();
         for (i, family) in (1..).zip(F::all()) {
             let facts = family.facts();
-            if !task.quiet {
+            if !args.quiet {
                 let (sort, of) = (F::SORT, F::all().len());
                 ui::say(&format!("{sort} {i}/{of}: {}: {}", facts.name, facts.about));
             }
-            let setting = Setting { seed: task.seed, ..facts.setting };
-            rows.extend(measure(&subjects, family, setting, task.rays));
+            let setting = Setting { seed: args.seed, ..facts.setting };
+            rows.extend(measure(&subjects, family, setting, args.rays()));
         }
-        if !task.quiet {
+        if !args.quiet {
             ui::say(&format!("{}: times", F::SORT));
         }
-        let times = F::time(&subjects, task.rounds);
+        let times = F::time(&subjects, args.rounds());
         let timed = rows.iter().zip(times.iter().cycle());
         // Not of a kernel that is not made for the family.
         let timed: Vec<_> = timed.filter(|(row, _)| row.tally.rays > 0).collect();

@@ -2,6 +2,7 @@
 
 pub(crate) mod accuracy;
 pub(crate) mod bench;
+pub(crate) mod chart;
 pub(crate) mod generate;
 pub(crate) mod info;
 pub(crate) mod render;

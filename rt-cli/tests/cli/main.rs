@@ -5,6 +5,7 @@
 mod accuracy;
 mod bad_input;
 mod bench;
+mod chart;
 mod flags;
 mod generate;
 mod info;
