@@ -119,7 +119,8 @@ fn row_json<F: Family>(row: &Row<F>, time: &Time) -> Value {
         "width": width,
         "family": facts.name,
         "kind": facts.kind.name(),
-        "fair": facts.fair,
+        // Whether there are errors of t that tell of the kernel.
+        "fair": facts.fair && tally.t_ulp.count() > 0,
         "seed": setting.seed,
         "scale": setting.scale,
         "offset": setting.offset,
