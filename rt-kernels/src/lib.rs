@@ -47,10 +47,13 @@
 mod brute;
 pub mod bvh;
 pub mod camera;
+pub mod catalogue;
 pub mod geom;
 pub mod packet;
 mod primitives;
 pub mod quadric;
+#[cfg(feature = "reference")]
+pub mod reference;
 pub mod slab;
 mod stats;
 mod trace;

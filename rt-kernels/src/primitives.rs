@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use glam::Vec3;
-use simd4::{Lanes, Simd, SimdF32, spec};
+use simd4::SimdF32;
 
-use crate::geom::{Aabb, PADDING, Sphere, Triangle};
+use crate::geom::{Aabb, Sphere, Triangle};
 use crate::packet::{Frame, Packet, Query};
 use crate::quadric::sphere;
-use crate::tri::watertight;
+use crate::tri::{self, Record, TriangleKernel, Watertight};
 use crate::{BuildError, Stats};
 
 /// The primitives of a scene. They are numbered in this order: triangles first, then spheres.
@@ -72,49 +72,6 @@ fn check_points(prim: usize, points: &[Vec3]) -> Result<(), BuildError> {
     Ok(())
 }
 
-/// A triangle as leaves hold it: 48 bytes, three blocks of 16 (Geimer and Müller 2003,
-/// Section 3.2, with corners in place of edges: an edge would be rounded).
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(16))]
-pub struct TriangleRecord {
-    /// First corner.
-    pub a: [f32; 3],
-    /// The primitive's number.
-    pub prim: u32,
-    /// Second corner.
-    pub b: [f32; 3],
-    _pad_b: u32,
-    /// Third corner.
-    pub c: [f32; 3],
-    _pad_c: u32,
-}
-
-const _: () = assert!(size_of::<TriangleRecord>() == 48);
-
-impl TriangleRecord {
-    /// The own box of the triangle, the same bits as [`Triangle::own_box`]: all axes at once.
-    #[inline(always)]
-    pub(crate) fn own_box<S: Simd>(&self, s: S) -> Aabb {
-        let (a, b, c) = (block(s, self.a), block(s, self.b), block(s, self.c));
-        let min = a.min(b).min(c);
-        let max = a.max(b).max(c);
-        let [x, y, z, _] = (max - min).to_array();
-        let extent = spec::max(spec::max(x, y), z);
-        let magnitude = min.abs().max(max.abs());
-        let pad =
-            S::f32x4::splat(s, extent * PADDING) + magnitude * S::f32x4::splat(s, f32::EPSILON);
-        let [x0, y0, z0, _] = (min - pad).to_array();
-        let [x1, y1, z1, _] = (max + pad).to_array();
-        Aabb { axes: [[x0, x1], [y0, y1], [z0, z1]] }
-    }
-}
-
-/// A corner in one register; the fourth lane is of no account.
-#[inline(always)]
-fn block<S: Simd>(s: S, [x, y, z]: [f32; 3]) -> S::f32x4 {
-    S::f32x4::from_array(s, [x, y, z, 0.0])
-}
-
 /// A sphere as leaves hold it: 32 bytes.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
@@ -125,11 +82,14 @@ pub struct SphereRecord {
     pub prim: u32,
 }
 
+/// The triangle test that renders.
+type Kernel = Watertight;
+
 /// Primitives in the order of the leaves. A **slot** numbers them: triangles first, then spheres,
 /// so that a range of slots of one kind needs no tag.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Store {
-    triangles: Vec<TriangleRecord>,
+    triangles: Vec<Record>,
     spheres: Vec<SphereRecord>,
 }
 
@@ -147,10 +107,7 @@ impl Store {
         };
         for prim in order {
             match primitives.triangles.get(prim as usize) {
-                Some(triangle) => {
-                    let [a, b, c] = triangle.corners.map(|corner| corner.to_array());
-                    store.triangles.push(TriangleRecord { a, prim, b, _pad_b: 0, c, _pad_c: 0 });
-                }
+                Some(triangle) => store.triangles.push(Kernel::record(triangle, prim)),
                 None => {
                     let sphere = primitives.spheres[prim as usize - primitives.triangles.len()];
                     store.spheres.push(SphereRecord { sphere, prim });
@@ -185,7 +142,7 @@ impl Store {
         if slots.end <= self.triangles.len() {
             stats.triangle_tests += tests;
             for triangle in &self.triangles[slots] {
-                watertight::intersect(s, triangle, packet, frame, query);
+                tri::intersect::<Kernel, V, F, _, Q>(s, triangle, packet, frame, query);
             }
         } else {
             stats.sphere_tests += tests;

@@ -2,15 +2,14 @@
 //!
 //! An oracle is separate, dumb and short, and shares no code with what it judges.
 
-pub mod aim;
 pub mod figures;
 pub mod hash;
-pub mod mesh;
 pub mod oracle;
-pub mod random;
 pub mod scenes;
 pub mod strategies;
 pub mod trace;
+
+pub use rt_kernels::reference::{aim, mesh, random};
 
 /// The number of cases of a property: `PROPTEST_CASES`, or 256.
 ///

@@ -4,9 +4,7 @@
 use glam::{DVec3, Vec3};
 use rt_kernels::Ray;
 use rt_kernels::geom::{Aabb, Sphere};
-
-/// Half the distance from 1 to the next `f32`.
-pub const ROUNDOFF: f64 = 1.0 / (1 << 24) as f64;
+pub use rt_kernels::reference::{ROUNDOFF, ulps};
 
 /// The triangle test that everybody writes first, in `f32` and without a tolerance (Möller and
 /// Trumbore 1997). It leaks: that is what it is here for.
@@ -145,13 +143,6 @@ pub fn sphere(ray: &Ray, sphere: &Sphere) -> Roots {
     let passes = l.cross(d).length() / d.length() / radius;
     let half = radius * (1.0 - passes * passes).sqrt() / d.length();
     Roots { t: [nearest - half, nearest + half], passes }
-}
-
-/// How many units in the last place of the `f32` nearest to `exact` lie between it and `value`.
-pub fn ulps(value: f32, exact: f64) -> f64 {
-    let magnitude = (exact as f32).abs().max(f32::MIN_POSITIVE);
-    let ulp = f64::from(magnitude.next_up()) - f64::from(magnitude);
-    ((f64::from(value) - exact) / ulp).abs()
 }
 
 #[cfg(test)]

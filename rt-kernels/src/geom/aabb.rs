@@ -17,7 +17,7 @@ pub struct Aabb {
 ///
 /// A kernel sees a primitive as if each of its points, at `x` from the ray's origin on one axis and
 /// at the time `t` of the ray, were moved by 2u |x| + 4u |dx t| along that axis
-/// ([`watertight`](crate::tri::watertight), "Precision"). Within one primitive `t` varies by its
+/// ([`Watertight`](crate::tri::Watertight), "Precision"). Within one primitive `t` varies by its
 /// extent along the dominant axis over that axis' speed, and no axis is faster. So each side of a
 /// slab is off by at most 6u of the hit's own `t` and 6u of the extent; with the three roundings of
 /// each distance the two sides are off by 18u of `t` together. The rest is reserve.

@@ -2,6 +2,7 @@
 
 mod aabb;
 mod hit;
+mod quadric;
 mod ray;
 mod sphere;
 mod triangle;
@@ -9,6 +10,7 @@ mod triangle;
 pub use aabb::Aabb;
 pub(crate) use aabb::PADDING;
 pub use hit::Hit;
+pub use quadric::{Curved, Quadric};
 pub use ray::Ray;
 pub use sphere::Sphere;
 pub use triangle::Triangle;

@@ -4,18 +4,20 @@
 use simd4::math::Vec3;
 use simd4::{SimdF32, SimdMask};
 
-use super::Packet;
-use crate::geom::Aabb;
+use super::axes::{Axes, OwnAxes, SameAxis};
+use super::{Boxes, Packet};
+use crate::tri::Records;
 
 /// The signs and axes of a packet. Both kinds give the same bits; [`Coherent`] does it by
 /// addressing, [`Mixed`] by selecting in every lane.
 pub trait Frame<V: SimdF32> {
     /// The planes of a box that rays of this packet enter and leave by, on each axis: chosen by
     /// the sign bit of the direction.
-    fn near_far(&self, s: V::Simd, aabb: &Aabb) -> (Vec3<V>, Vec3<V>);
+    fn near_far<B: Boxes<V>>(&self, s: V::Simd, boxes: &B) -> (Vec3<V>, Vec3<V>);
 
-    /// A point, seen from the rays' origins, with the dominant axis as its z.
-    fn relative(&self, s: V::Simd, point: &[f32; 3]) -> Vec3<V>;
+    /// The points in that row of some records, seen from the rays' origins, with the dominant axis
+    /// as z.
+    fn relative<R: Records<V>>(&self, s: V::Simd, records: &R, row: usize) -> Vec3<V>;
 
     /// The shear that turns the rays into the z axis.
     fn shear(&self) -> &Shear<V>;
@@ -49,7 +51,7 @@ pub struct Coherent<V> {
     near: [usize; 3],
     /// And which is the farther one.
     far: [usize; 3],
-    axes: [usize; 3],
+    axes: SameAxis,
     shear: Shear<V>,
 }
 
@@ -58,8 +60,8 @@ pub struct Coherent<V> {
 pub struct Mixed<V: SimdF32> {
     /// Lanes with a negative direction, by axis.
     negative: [V::Mask; 3],
-    /// Lanes whose dominant axis is x, and those where it is y.
-    dominant: [V::Mask; 2],
+    /// The dominant axis of each lane.
+    axes: OwnAxes<V::Mask>,
     shear: Shear<V>,
 }
 
@@ -67,32 +69,48 @@ impl<V: SimdF32> Packet<V> {
     /// The packet's frame: coherent, if all active lanes agree.
     #[inline(always)]
     pub fn frame(&self, s: V::Simd) -> Result<Coherent<V>, Mixed<V>> {
-        let zero = V::splat(s, 0.0);
-        // By the reciprocal: −0 has the sign of −inf there, and a comparison sees it.
-        let negative = [self.inv.x.lt(zero), self.inv.y.lt(zero), self.inv.z.lt(zero)];
-        let (x, y, z) = (self.dir.x.abs(), self.dir.y.abs(), self.dir.z.abs());
-        let dominant_x = x.ge(y) & x.ge(z);
-        let dominant = [dominant_x, y.ge(z) & !dominant_x];
-
+        let [x, y, z] = self.negative(s);
+        let OwnAxes([in_x, in_y]) = self.dominant();
         let active = self.active();
-        let near =
-            (agreed(negative[0], active), agreed(negative[1], active), agreed(negative[2], active));
-        let axes = (agreed(dominant[0], active), agreed(dominant[1], active));
+        let near = (agreed(x, active), agreed(y, active), agreed(z, active));
+        let axes = (agreed(in_x, active), agreed(in_y, active));
         if let ((Some(x), Some(y), Some(z)), (Some(in_x), Some(in_y))) = (near, axes) {
-            let axes = match (in_x, in_y) {
-                (true, _) => [1, 2, 0],
-                (_, true) => [2, 0, 1],
-                _ => [0, 1, 2],
-            };
-            let (origin, dir) = (reorder(axes, self.origin), reorder(axes, self.dir));
-            let shear = Shear::new(origin, dir, reorder(axes, self.inv));
+            let axes = SameAxis::new(match (in_x, in_y) {
+                (true, _) => 0,
+                (_, true) => 1,
+                _ => 2,
+            });
             let near = [x.into(), y.into(), z.into()];
             let far = [(!x).into(), (!y).into(), (!z).into()];
-            return Ok(Coherent { near, far, axes, shear });
+            return Ok(Coherent { near, far, axes, shear: self.shear(axes) });
         }
-        let (origin, dir) = (permute(dominant, self.origin), permute(dominant, self.dir));
-        let shear = Shear::new(origin, dir, permute(dominant, self.inv));
-        Err(Mixed { negative, dominant, shear })
+        Err(self.mixed(s))
+    }
+
+    /// The frame that fits any packet.
+    #[inline(always)]
+    pub fn mixed(&self, s: V::Simd) -> Mixed<V> {
+        let axes = self.dominant();
+        Mixed { negative: self.negative(s), axes, shear: self.shear(axes) }
+    }
+
+    /// By the reciprocal: −0 has the sign of −inf there, and a comparison sees it.
+    #[inline(always)]
+    fn negative(&self, s: V::Simd) -> [V::Mask; 3] {
+        let zero = V::splat(s, 0.0);
+        [self.inv.x.lt(zero), self.inv.y.lt(zero), self.inv.z.lt(zero)]
+    }
+
+    #[inline(always)]
+    fn dominant(&self) -> OwnAxes<V::Mask> {
+        let (x, y, z) = (self.dir.x.abs(), self.dir.y.abs(), self.dir.z.abs());
+        let in_x = x.ge(y) & x.ge(z);
+        OwnAxes([in_x, y.ge(z) & !in_x])
+    }
+
+    #[inline(always)]
+    fn shear<A: Axes<V>>(&self, axes: A) -> Shear<V> {
+        Shear::new(axes.last(self.origin), axes.last(self.dir), axes.last(self.inv))
     }
 }
 
@@ -105,38 +123,21 @@ fn agreed<M: SimdMask>(mask: M, active: M) -> Option<bool> {
     }
 }
 
-/// Puts the same dominant axis last in all lanes, and the others in cyclic order before it.
-#[inline(always)]
-fn reorder<V: SimdF32>([kx, ky, kz]: [usize; 3], v: Vec3<V>) -> Vec3<V> {
-    let v = [v.x, v.y, v.z];
-    Vec3::new(v[kx], v[ky], v[kz])
-}
-
-/// Puts each lane's own dominant axis last.
-#[inline(always)]
-fn permute<V: SimdF32>([x, y]: [V::Mask; 2], v: Vec3<V>) -> Vec3<V> {
-    Vec3::new(
-        x.select(v.y, y.select(v.z, v.x)),
-        x.select(v.z, y.select(v.x, v.y)),
-        x.select(v.x, y.select(v.y, v.z)),
-    )
-}
-
 impl<V: SimdF32> Frame<V> for Coherent<V> {
     #[inline(always)]
-    fn near_far(&self, s: V::Simd, aabb: &Aabb) -> (Vec3<V>, Vec3<V>) {
+    fn near_far<B: Boxes<V>>(&self, s: V::Simd, boxes: &B) -> (Vec3<V>, Vec3<V>) {
         let ([nx, ny, nz], [fx, fy, fz]) = (self.near, self.far);
-        // The masks tell the compiler that there are but two sides.
-        let [x, y, z] = &aabb.axes;
-        let near = [x[nx & 1], y[ny & 1], z[nz & 1]];
-        let far = [x[fx & 1], y[fy & 1], z[fz & 1]];
-        (Vec3::splat(s, near), Vec3::splat(s, far))
+        let near = Vec3::new(boxes.side(s, 0, nx), boxes.side(s, 1, ny), boxes.side(s, 2, nz));
+        let far = Vec3::new(boxes.side(s, 0, fx), boxes.side(s, 1, fy), boxes.side(s, 2, fz));
+        (near, far)
     }
 
     #[inline(always)]
-    fn relative(&self, s: V::Simd, point: &[f32; 3]) -> Vec3<V> {
-        let [kx, ky, kz] = self.axes;
-        Vec3::splat(s, [point[kx % 3], point[ky % 3], point[kz % 3]]) - self.shear.origin
+    fn relative<R: Records<V>>(&self, s: V::Simd, records: &R, row: usize) -> Vec3<V> {
+        let [kx, ky, kz] = self.axes.order();
+        let point =
+            Vec3::new(records.get(s, row, kx), records.get(s, row, ky), records.get(s, row, kz));
+        point - self.shear.origin
     }
 
     #[inline(always)]
@@ -147,9 +148,9 @@ impl<V: SimdF32> Frame<V> for Coherent<V> {
 
 impl<V: SimdF32> Frame<V> for Mixed<V> {
     #[inline(always)]
-    fn near_far(&self, s: V::Simd, aabb: &Aabb) -> (Vec3<V>, Vec3<V>) {
-        let [[x0, x1], [y0, y1], [z0, z1]] = aabb.axes;
-        let (low, high) = (Vec3::splat(s, [x0, y0, z0]), Vec3::splat(s, [x1, y1, z1]));
+    fn near_far<B: Boxes<V>>(&self, s: V::Simd, boxes: &B) -> (Vec3<V>, Vec3<V>) {
+        let low = Vec3::new(boxes.side(s, 0, 0), boxes.side(s, 1, 0), boxes.side(s, 2, 0));
+        let high = Vec3::new(boxes.side(s, 0, 1), boxes.side(s, 1, 1), boxes.side(s, 2, 1));
         let [x, y, z] = self.negative;
         let near =
             Vec3::new(x.select(high.x, low.x), y.select(high.y, low.y), z.select(high.z, low.z));
@@ -159,8 +160,8 @@ impl<V: SimdF32> Frame<V> for Mixed<V> {
     }
 
     #[inline(always)]
-    fn relative(&self, s: V::Simd, point: &[f32; 3]) -> Vec3<V> {
-        permute(self.dominant, Vec3::splat(s, *point)) - self.shear.origin
+    fn relative<R: Records<V>>(&self, s: V::Simd, records: &R, row: usize) -> Vec3<V> {
+        self.axes.last(records.vec3(s, row)) - self.shear.origin
     }
 
     #[inline(always)]

@@ -4,16 +4,22 @@
 //! axes: [`Coherent`] if all rays agree, [`Mixed`] if not. A [`Query`] says what is asked of it:
 //! the [`Closest`] hit, or whether there is [`Any`].
 
+mod axes;
+mod boxes;
 mod frame;
 mod query;
 mod stream;
 
+pub use axes::{Axes, OwnAxes, SameAxis};
+pub use boxes::{Boxes, OwnBoxes};
 pub use frame::{Coherent, Frame, Mixed};
 pub use query::{Any, Closest, Query};
 pub use stream::{Hits, Rays};
 
 use simd4::math::Vec3;
 use simd4::{SimdF32, SimdMask};
+
+use crate::Ray;
 
 /// Rays in lanes, with what all kernels derive from them.
 ///
@@ -37,11 +43,20 @@ impl<V: SimdF32> Packet<V> {
     /// The rays from `first` on, as many as there are lanes; lanes beyond the last ray hit nothing.
     #[inline(always)]
     pub fn load(s: V::Simd, rays: &Rays, first: usize) -> Self {
-        let origin: Vec3<V> = load3(s, rays, 0, first);
-        let dir: Vec3<V> = load3(s, rays, 3, first);
-        let tmin: V = load(s, rays, 6, first);
-        let tmax: V = load(s, rays, 7, first);
+        let [origin, dir] = [load3(s, rays, 0, first), load3(s, rays, 3, first)];
+        Packet::new(s, origin, dir, load(s, rays, 6, first), load(s, rays, 7, first))
+    }
 
+    /// One ray in all lanes.
+    #[inline(always)]
+    pub fn splat(s: V::Simd, ray: &Ray) -> Self {
+        let origin = Vec3::splat(s, ray.origin.to_array());
+        let dir = Vec3::splat(s, ray.dir.to_array());
+        Packet::new(s, origin, dir, V::splat(s, ray.tmin), V::splat(s, ray.tmax))
+    }
+
+    #[inline(always)]
+    fn new(s: V::Simd, origin: Vec3<V>, dir: Vec3<V>, tmin: V, tmax: V) -> Self {
         let (zero, infinity) = (V::splat(s, 0.0), V::splat(s, f32::INFINITY));
         let moves = dir.x.ne(zero) | dir.y.ne(zero) | dir.z.ne(zero);
         let hits = finite(s, origin) & finite(s, dir) & moves & tmin.ge(zero) & tmin.le(tmax);

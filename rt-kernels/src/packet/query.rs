@@ -12,7 +12,7 @@ pub trait Query<V: SimdF32> {
 
     /// Takes a hit: in the lanes of `mask`, the primitive `prim` at `t`, which is within
     /// [`limit`](Query::limit), with weights `u`, `v`.
-    fn record(&mut self, s: V::Simd, mask: V::Mask, prim: u32, t: V, u: V, v: V);
+    fn record(&mut self, s: V::Simd, mask: V::Mask, prim: V::U32, t: V, u: V, v: V);
 
     /// Whether nothing matters any more, in any lane.
     fn done(&self, s: V::Simd) -> bool;
@@ -43,6 +43,20 @@ impl<V: SimdF32> Closest<V> {
         self.v.store_prefix(&mut hits.v[first..]);
         self.prim.store_prefix(&mut hits.prim[first..]);
     }
+
+    /// Writes the closest hit of all lanes, which have the same ray, as that of ray `i`.
+    #[inline(always)]
+    pub fn store_least(self, s: V::Simd, hits: &mut Hits, i: usize) {
+        let found = self.prim.ne(V::U32::splat(s, Hits::NONE));
+        let Some((_, t)) = self.t.argmin(found) else {
+            hits.prim[i] = Hits::NONE;
+            return;
+        };
+        let closest = found & self.t.eq(V::splat(s, t));
+        let Some((lane, prim)) = self.prim.argmin(closest) else { return };
+        (hits.t[i], hits.prim[i]) = (t, prim);
+        (hits.u[i], hits.v[i]) = (self.u.lane(lane), self.v.lane(lane));
+    }
 }
 
 impl<V: SimdF32> Query<V> for Closest<V> {
@@ -52,8 +66,7 @@ impl<V: SimdF32> Query<V> for Closest<V> {
     }
 
     #[inline(always)]
-    fn record(&mut self, s: V::Simd, mask: V::Mask, prim: u32, t: V, u: V, v: V) {
-        let prim = V::U32::splat(s, prim);
+    fn record(&mut self, _: V::Simd, mask: V::Mask, prim: V::U32, t: V, u: V, v: V) {
         let wins = mask & (t.lt(self.t) | (t.eq(self.t) & prim.lt(self.prim)));
         self.t = wins.select(t, self.t);
         self.u = wins.select(u, self.u);
@@ -98,7 +111,7 @@ impl<V: SimdF32> Query<V> for Any<V> {
     }
 
     #[inline(always)]
-    fn record(&mut self, s: V::Simd, mask: V::Mask, _prim: u32, _t: V, _u: V, _v: V) {
+    fn record(&mut self, s: V::Simd, mask: V::Mask, _prim: V::U32, _t: V, _u: V, _v: V) {
         self.found |= mask;
         self.limit = mask.select(V::splat(s, f32::NEG_INFINITY), self.limit);
     }

@@ -19,11 +19,56 @@
 //! Ray Tracing Gems, chapter 7. Deviation: `t` is clamped to the own box.
 
 use simd4::math::Vec3;
-use simd4::{SimdF32, SimdMask};
+use simd4::{Lanes, SimdF32, SimdMask};
 
-use crate::packet::{Frame, Packet, Query};
+use super::form::{Ball, Form, depth_in_ball, see_ball};
+use super::residual::nearest;
+use super::stable::q_roots;
+use super::{Found, QuadricKernel, Record, Records, Roots};
+use crate::geom::Curved;
+use crate::packet::{Boxes, Frame, Packet, Query};
 use crate::primitives::SphereRecord;
 use crate::slab::robust;
+use crate::tri::knobs::Plain;
+
+/// The sphere test that renders: [`Residual`](super::Residual) with the clamp to the sphere's own
+/// box. The [module](self) has the rest.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnBoxSphere;
+
+impl QuadricKernel for OwnBoxSphere {
+    const NAME: &'static str = "residual";
+    const FRAMED: bool = true;
+
+    fn variant() -> String {
+        "sphere, own box".to_string()
+    }
+
+    fn record(surface: &Curved, prim: u32) -> Option<Record> {
+        Ball::record(surface, prim)
+    }
+
+    #[inline(always)]
+    fn test<V: SimdF32, F: Frame<V>, R: Records<V>>(
+        s: V::Simd,
+        records: &R,
+        packet: &Packet<V>,
+        frame: &F,
+        limit: V,
+    ) -> Option<Found<V>> {
+        let (center, radius) = (records.center(s), records.size(s));
+        test(
+            s,
+            center,
+            radius,
+            #[inline(always)]
+            || records.own_boxes(s),
+            packet,
+            frame,
+            limit,
+        )
+    }
+}
 
 /// Tests a packet against one sphere and records the hits.
 #[inline(always)]
@@ -35,30 +80,47 @@ pub fn intersect<V: SimdF32, F: Frame<V>, Q: Query<V>>(
     query: &mut Q,
 ) {
     let sphere = &record.sphere;
-    let radius2 = V::splat(s, sphere.radius * sphere.radius);
-    // From the ray's origin to the centre.
-    let center = Vec3::splat(s, sphere.center.to_array()) - packet.origin;
-    let a = packet.dir.dot(packet.dir);
-    let b = center.dot(packet.dir);
-    let nearest = center - packet.dir * (b / a);
-    let discriminant = radius2 - nearest.dot(nearest);
-    let zero = V::splat(s, 0.0);
-    let meets = discriminant.ge(zero);
-    if meets.none() {
-        return;
+    let center = Vec3::splat(s, sphere.center.to_array());
+    let found = test(
+        s,
+        center,
+        V::splat(s, sphere.radius),
+        #[inline(always)]
+        || sphere.own_box(),
+        packet,
+        frame,
+        query.limit(),
+    );
+    if let Some(Found { mask, t }) = found {
+        let zero = V::splat(s, 0.0);
+        query.record(s, mask, V::U32::splat(s, record.prim), t, zero, zero);
     }
+}
 
-    let root = (a * discriminant).sqrt();
-    let q = b + b.ge(zero).select(root, -root);
-    let c = center.dot(center) - radius2;
-    let (t0, t1) = (c / q, q / a);
-    let (enter, exit) = robust::enter_exit(s, &sphere.own_box(), packet, frame);
-    let (first, second) = (t0.min(t1), t0.max(t1));
+/// One sphere in all lanes, or each lane its own. `own_box` is asked for only if some ray meets the
+/// sphere.
+#[inline(always)]
+fn test<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
+    s: V::Simd,
+    center: Vec3<V>,
+    radius: V,
+    own_box: impl FnOnce() -> B,
+    packet: &Packet<V>,
+    frame: &F,
+    limit: V,
+) -> Option<Found<V>> {
+    let seen = see_ball::<Plain, V>(center, radius, packet);
+    let depth = depth_in_ball::<Plain, V>(radius, nearest::<Plain, V>(&seen, packet));
+    let meets = depth.ge(V::splat(s, 0.0));
+    if meets.none() {
+        return None;
+    }
+    let roots = Roots { meets, t: q_roots(s, &seen, (seen.a * depth).sqrt()) };
+    let (enter, exit) = robust::enter_exit(s, &own_box(), packet, frame);
+    let [first, second] = roots.in_order();
     let t = first.ge(packet.tmin).select(first, second);
     let ahead = meets & packet.tmin.le(t) & packet.tmin.le(exit);
     let t = t.max(enter);
-    let hits = ahead & enter.le(exit) & t.le(query.limit());
-    if hits.any() {
-        query.record(s, hits, record.prim, t, zero, zero);
-    }
+    let mask = ahead & enter.le(exit) & t.le(limit);
+    mask.any().then_some(Found { mask, t })
 }

@@ -16,66 +16,81 @@
 //!
 //! **Operations**, per node: 6 subtractions, 7 multiplications, 3 minima, 3 maxima, 1 comparison.
 //!
-//! Source: Williams et al. 2005 (signs); Ize 2013 (padding); order of operands for NaN: this file.
+//! Source: Williams et al. 2005 (signs); Ize 2013 (padding); order of operands for NaN:
+//! [`Signed`](super::Signed), which is the same test with less padding.
 
-use simd4::SimdF32;
-use simd4::math::Vec3;
+use std::marker::PhantomData;
 
-use crate::geom::Aabb;
-use crate::packet::{Frame, Packet};
+use simd4::{SimdF32, SimdMask};
 
-/// What the exit is multiplied by.
-const WIDER: f32 = 1.0 + crate::geom::PADDING;
+use super::knobs::{Padded, Relative, words};
+use super::signed::interval;
+use super::{BoxKernel, Crossing};
+use crate::packet::{Boxes, Frame, Packet};
+use crate::tri::knobs::{Division, Reciprocal};
+
+/// The slab test that loses no ray: what renders, with its default. The [module](self) has the rest.
+#[derive(Clone, Copy, Debug)]
+pub struct Robust<C = Division>(PhantomData<C>);
+
+impl<C: Reciprocal> BoxKernel for Robust<C> {
+    const NAME: &'static str = "robust";
+    const EXACT: bool = C::EXACT;
+    const FRAMED: bool = true;
+
+    type Reciprocal = C;
+
+    fn variant() -> String {
+        words(&[C::NAME])
+    }
+
+    #[inline(always)]
+    fn test<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
+        s: V::Simd,
+        boxes: &B,
+        packet: &Packet<V>,
+        frame: &F,
+        limit: V,
+    ) -> Option<Crossing<V>> {
+        let [enter, exit] = may_pass(s, boxes, packet, frame, [packet.tmin, limit]);
+        let mask = enter.le(exit);
+        mask.any().then_some(Crossing { mask, enter })
+    }
+}
 
 /// The lanes whose ray may meet something in the box with `tmin <= t <= limit`.
 #[inline(always)]
-pub fn may_hit<V: SimdF32, F: Frame<V>>(
+pub fn may_hit<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
     s: V::Simd,
-    aabb: &Aabb,
+    boxes: &B,
     packet: &Packet<V>,
     frame: &F,
     limit: V,
 ) -> V::Mask {
-    let (enter, exit) = interval(s, aabb, packet, frame, packet.tmin, limit);
+    let [enter, exit] = may_pass(s, boxes, packet, frame, [packet.tmin, limit]);
     enter.le(exit)
 }
 
 /// The entry into the box and the padded exit from it: ∓∞ where there is no end.
 #[inline(always)]
-pub fn enter_exit<V: SimdF32, F: Frame<V>>(
+pub fn enter_exit<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
     s: V::Simd,
-    aabb: &Aabb,
+    boxes: &B,
     packet: &Packet<V>,
     frame: &F,
 ) -> (V, V) {
     let infinity = V::splat(s, f32::INFINITY);
-    interval(s, aabb, packet, frame, -infinity, infinity)
+    let [enter, exit] = may_pass(s, boxes, packet, frame, [-infinity, infinity]);
+    (enter, exit)
 }
 
-/// The part of `after..=before` within the box, its end padded.
-///
-/// `min` and `max` give their second operand where the first is NaN: the order of operands drops
-/// NaNs.
 #[inline(always)]
-fn interval<V: SimdF32, F: Frame<V>>(
+fn may_pass<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
     s: V::Simd,
-    aabb: &Aabb,
+    boxes: &B,
     packet: &Packet<V>,
     frame: &F,
-    after: V,
-    before: V,
-) -> (V, V) {
-    let (near, far) = frame.near_far(s, aabb);
-    let near = distances(near, packet);
-    let far = distances(far, packet);
-    let enter = near.z.max(near.y.max(near.x.max(after)));
-    let exit = far.z.min(far.y.min(far.x.min(before)));
-    (enter, exit * V::splat(s, WIDER))
-}
-
-/// The distances along the rays to one plane of each axis.
-#[inline(always)]
-fn distances<V: SimdF32>(planes: Vec3<V>, packet: &Packet<V>) -> Vec3<V> {
-    let relative = planes - packet.origin;
-    Vec3::new(relative.x * packet.inv.x, relative.y * packet.inv.y, relative.z * packet.inv.z)
+    within: [V; 2],
+) -> [V; 2] {
+    interval::<Relative, Padded, V, F, B>(s, boxes, packet, frame, within)
 }

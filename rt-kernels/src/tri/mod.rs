@@ -1,3 +1,93 @@
-//! Ray against triangle: one file a method.
+//! Ray against triangle: one file a method, all behind [`TriangleKernel`].
+//!
+//! A kernel is one text for three uses: rays in lanes against one [`Record`], one ray in all lanes
+//! against records in lanes ([`RecordBlock`]), and one against one, which is the same with one
+//! lane. Its choices of [arithmetic](knobs) are type parameters. [`catalogue`] lists every kernel
+//! with every choice; what renders is
+//! [`Watertight`]'s default.
+//!
+//! Rays that run in a triangle's plane, triangles without area and numbers that are not finite hit
+//! nothing, with any kernel, but for what the file of a kernel says.
 
-pub mod watertight;
+mod catalogue;
+pub mod knobs;
+mod moller_trumbore;
+mod moller_trumbore_f64;
+mod plucker;
+mod record;
+mod sweep;
+mod wald;
+mod watertight;
+
+pub use catalogue::{TriangleTest, catalogue};
+pub use moller_trumbore::MollerTrumbore;
+pub use moller_trumbore_f64::MollerTrumboreF64;
+pub use plucker::Plucker;
+pub use record::{BlockLanes, Record, RecordBlock, Records};
+pub use sweep::Triangles;
+pub use wald::Wald;
+pub use watertight::Watertight;
+
+use simd4::{SimdF32, SimdMask};
+
+use crate::geom::Triangle;
+use crate::packet::{Frame, Packet, Query};
+
+/// A way to decide whether a ray meets a triangle, and where.
+pub trait TriangleKernel: Send + Sync + 'static {
+    /// What the method is called.
+    const NAME: &'static str;
+    /// Whether the bits of a hit are the same on every level and machine.
+    const EXACT: bool;
+    /// Whether it rounds a product and a sum once: slow on a level without such an instruction.
+    const FUSED: bool = false;
+    /// Whether it looks at the [`Frame`]. If not, any frame will do.
+    const FRAMED: bool = false;
+    /// Whether it is for scalar use only.
+    const SCALAR: bool = false;
+
+    /// Its choices, in words: distinct among the variants of one method.
+    fn variant() -> String;
+
+    /// What it keeps of a triangle, whose number is `prim`.
+    fn record(triangle: &Triangle, prim: u32) -> Record;
+
+    /// The lanes whose ray meets its record's triangle with `packet.tmin <= t <= limit`: `None`
+    /// if there is none.
+    fn test<V: SimdF32, F: Frame<V>, R: Records<V>>(
+        s: V::Simd,
+        records: &R,
+        packet: &Packet<V>,
+        frame: &F,
+        limit: V,
+    ) -> Option<Found<V>>;
+}
+
+/// What a kernel found.
+#[derive(Clone, Copy, Debug)]
+pub struct Found<V: SimdF32> {
+    /// The lanes that hit.
+    pub mask: V::Mask,
+    /// The distance, in units of the direction's length.
+    pub t: V,
+    /// The weight of the second corner.
+    pub u: V,
+    /// The weight of the third corner.
+    pub v: V,
+}
+
+/// Tests a packet against a record, or records in lanes, and records the hits.
+#[inline(always)]
+pub fn intersect<K: TriangleKernel, V: SimdF32, F: Frame<V>, R: Records<V>, Q: Query<V>>(
+    s: V::Simd,
+    records: &R,
+    packet: &Packet<V>,
+    frame: &F,
+    query: &mut Q,
+) {
+    if let Some(found) = K::test(s, records, packet, frame, query.limit())
+        && found.mask.any()
+    {
+        query.record(s, found.mask, records.prim(s), found.t, found.u, found.v);
+    }
+}

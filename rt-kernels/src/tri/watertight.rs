@@ -1,91 +1,135 @@
-//! The watertight triangle test.
-//!
-//! **Decides** whether rays meet one triangle, and where. Each ray's space is sheared so that the
-//! ray runs along z; what is left is whether the origin lies in a triangle of the plane, by the
-//! signs of three edge functions.
-//!
-//! **Parameters.** World space. The `t` interval is closed at both ends. Both sides are hit.
-//!
-//! **Watertight.** Two triangles that share an edge see the same sheared corners, and the edge
-//! function of one is the negative of the other's: each is the difference of two products, each
-//! rounded by itself. Rounding is monotone, so a difference never has the wrong sign; at worst it
-//! is 0. Where one is 0 and it matters, that lane is decided again in f64, in which the products are
-//! exact and the sign of their difference is right. So the signs are those of exact arithmetic on
-//! the sheared corners, edges and corners included, and a closed mesh has no gap to pass through.
-//! Contracting the differences to fused operations would break this: they are not antisymmetric.
-//!
-//! **Precision.** With x' the sheared x of a corner at (x, y, z) from the origin, and u = 2^-24:
-//! x' = x (1 + α) − (dx/dz) z (1 + β), where |α| ≤ 2u (its subtraction of the origin, the last
-//! subtraction) and |β| ≤ 4u (slope, z's subtraction of the origin, product, last subtraction). So
-//! the test is exact for corners moved by 2u |x| + 4u |z dx/dz| along x, and likewise along y. With
-//! z = t dz both terms are proportional to distances to the origin along one axis: that is what
-//! [`padded`](crate::geom::Aabb::padded) and the [slab test](crate::slab::robust) make room for.
-//! `t` is the mean of the corners' distances, weighted by the edge functions, or the entry into the
-//! triangle's own box where that is greater.
-//!
-//! **Degenerate inputs.** A triangle without area, seen from the ray after the shear, is not hit: its
-//! edge functions sum to 0. Its neighbours share its edges and take the ray. An origin within about
-//! one unit in the last place of the surface has no side: whether it is met at `t` = 0 is rounding.
-//!
-//! **Operations**: 18 subtractions, 12 multiplications, 4 minima and maxima and 2 comparisons to the
-//! first rejection; then 4 multiplications, 4 additions, a division, and for a candidate the own
-//! box and two divisions more.
-//!
-//! Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013. Deviations:
-//! 1. winding is not kept when the dominant axis is negative, since both sides are hit;
-//! 2. the f64 fallback is per lane and only for lanes that no nonzero sign rejects;
-//! 3. `t` is clamped to the own box.
+//! The watertight test of Woop, Benthin and Wald: the one that renders.
+
+use std::marker::PhantomData;
 
 use simd4::{SimdF32, SimdMask};
 
-use crate::packet::{Frame, Packet, Query};
-use crate::primitives::TriangleRecord;
+use super::knobs::{Division, Plain, Reciprocal, Rounding, words};
+use super::{Found, Record, Records, TriangleKernel};
+use crate::geom::Triangle;
+use crate::packet::{Frame, Packet};
 use crate::slab::robust;
 
-/// Tests a packet against one triangle and records the hits.
-#[inline(always)]
-pub fn intersect<V: SimdF32, F: Frame<V>, Q: Query<V>>(
-    s: V::Simd,
-    triangle: &TriangleRecord,
-    packet: &Packet<V>,
-    frame: &F,
-    query: &mut Q,
-) {
-    let shear = frame.shear();
-    let a = frame.relative(s, &triangle.a);
-    let b = frame.relative(s, &triangle.b);
-    let c = frame.relative(s, &triangle.c);
-    let (ax, ay) = (a.x - shear.x * a.z, a.y - shear.y * a.z);
-    let (bx, by) = (b.x - shear.x * b.z, b.y - shear.y * b.z);
-    let (cx, cy) = (c.x - shear.x * c.z, c.y - shear.y * c.z);
+/// The watertight triangle test.
+///
+/// **Decides** whether rays meet one triangle, and where. Each ray's space is sheared so that the
+/// ray runs along z; what is left is whether the origin lies in a triangle of the plane, by the
+/// signs of three edge functions.
+///
+/// **Parameters.** World space. The `t` interval is closed at both ends. Both sides are hit.
+///
+/// **Watertight.** Two triangles that share an edge see the same sheared corners, and the edge
+/// function of one is the negative of the other's: each is the difference of two products, each
+/// rounded by itself. Rounding is monotone, so a difference never has the wrong sign; at worst it
+/// is 0. Where one is 0 and it matters, that lane is decided again in f64, in which the products are
+/// exact and the sign of their difference is right. So the signs are those of exact arithmetic on
+/// the sheared corners, edges and corners included, and a closed mesh has no gap to pass through.
+/// Without `EXACT_ZEROS` a 0 stays one: no gap either, but both neighbours are hit. `A` may round
+/// shears and sums once, and differences by [`Split`](super::knobs::Split) or
+/// [`Kahan`](super::knobs::Kahan); contracted ([`Fused`](super::knobs::Fused)) they are not
+/// antisymmetric, and rays leak.
+///
+/// **Precision.** With x' the sheared x of a corner at (x, y, z) from the origin, and u = 2^-24:
+/// x' = x (1 + α) − (dx/dz) z (1 + β), where |α| ≤ 2u (its subtraction of the origin, the last
+/// subtraction) and |β| ≤ 4u (slope, z's subtraction of the origin, product, last subtraction). So
+/// the test is exact for corners moved by 2u |x| + 4u |z dx/dz| along x, and likewise along y. With
+/// z = t dz both terms are proportional to distances to the origin along one axis: that is what
+/// [`padded`](crate::geom::Aabb::padded) and the [slab test](crate::slab::robust) make room for.
+/// `t` is the mean of the corners' distances, weighted by the edge functions; with `OWN_BOX` the entry
+/// into the triangle's own box where that is greater, and only rays that meet that box hit: what
+/// makes the answer one ([the crate's documentation](crate#why-the-answer-is-one)).
+///
+/// **Degenerate inputs.** A triangle without area, seen from the ray after the shear, is not hit: its
+/// edge functions sum to 0. Its neighbours share its edges and take the ray. An origin within about
+/// one unit in the last place of the surface has no side: whether it is met at `t` = 0 is rounding.
+///
+/// **Operations**: 18 subtractions, 12 multiplications, 4 minima and maxima and 2 comparisons to the
+/// first rejection; then 7 multiplications, 4 additions, 1 reciprocal, 2 comparisons, and for a
+/// candidate the own box. The shear of a packet takes two divisions, once.
+///
+/// Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013. Deviations:
+/// 1. winding is not kept when the dominant axis is negative, since both sides are hit;
+/// 2. the f64 fallback is per lane and only for lanes that no nonzero sign rejects;
+/// 3. `t` is clamped to the own box.
+#[derive(Clone, Copy, Debug)]
+pub struct Watertight<
+    C = Division,
+    A = Plain,
+    const EXACT_ZEROS: bool = true,
+    const OWN_BOX: bool = true,
+>(PhantomData<(C, A)>);
 
-    // The edge functions: the weights of a, b and c, times twice the area.
-    let mut edges = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
-    let mut inside = same_signs(s, edges);
-    if inside.none() {
-        return;
-    }
-    let zero = V::splat(s, 0.0);
-    let doubtful = inside & (edges[0].eq(zero) | edges[1].eq(zero) | edges[2].eq(zero));
-    if doubtful.any() {
-        edges = exact_edges(s, doubtful, [[ax, ay], [bx, by], [cx, cy]], edges);
-        inside = same_signs(s, edges);
+impl<C: Reciprocal, A: Rounding, const EXACT_ZEROS: bool, const OWN_BOX: bool> TriangleKernel
+    for Watertight<C, A, EXACT_ZEROS, OWN_BOX>
+{
+    const NAME: &'static str = "watertight";
+    const EXACT: bool = C::EXACT;
+    const FUSED: bool = A::FUSED;
+    const FRAMED: bool = true;
+
+    fn variant() -> String {
+        words::<C, A>(&[
+            if EXACT_ZEROS { "exact zeros" } else { "" },
+            if OWN_BOX { "own box" } else { "" },
+        ])
     }
 
-    let [u, v, w] = edges;
-    let det = u + v + w;
-    // Without area t is NaN, or infinite where the area vanishes in the reciprocal: beyond any limit.
-    let inv_det = V::splat(s, 1.0) / det;
-    let t = (u * a.z + v * b.z + w * c.z) * inv_det * shear.z;
-    let candidates = inside & packet.tmin.le(t) & t.le(query.limit());
-    if candidates.none() {
-        return;
+    fn record(triangle: &Triangle, prim: u32) -> Record {
+        Record::corners(triangle, prim)
     }
-    let (enter, exit) = robust::enter_exit(s, &triangle.own_box(s), packet, frame);
-    let t = t.max(enter);
-    let hits = candidates & enter.le(exit) & packet.tmin.le(exit) & t.le(query.limit());
-    if hits.any() {
-        query.record(s, hits, triangle.prim, t, v * inv_det, w * inv_det);
+
+    #[inline(always)]
+    fn test<V: SimdF32, F: Frame<V>, R: Records<V>>(
+        s: V::Simd,
+        records: &R,
+        packet: &Packet<V>,
+        frame: &F,
+        limit: V,
+    ) -> Option<Found<V>> {
+        let shear = frame.shear();
+        let a = frame.relative(s, records, 0);
+        let b = frame.relative(s, records, 1);
+        let c = frame.relative(s, records, 2);
+        let (ax, ay) = (A::nmul_add(shear.x, a.z, a.x), A::nmul_add(shear.y, a.z, a.y));
+        let (bx, by) = (A::nmul_add(shear.x, b.z, b.x), A::nmul_add(shear.y, b.z, b.y));
+        let (cx, cy) = (A::nmul_add(shear.x, c.z, c.x), A::nmul_add(shear.y, c.z, c.y));
+
+        // The edge functions: the weights of a, b and c, times twice the area.
+        let mut edges = [
+            A::difference(cx, by, cy, bx),
+            A::difference(ax, cy, ay, cx),
+            A::difference(bx, ay, by, ax),
+        ];
+        let mut inside = same_signs(s, edges);
+        if inside.none() {
+            return None;
+        }
+        if EXACT_ZEROS {
+            let zero = V::splat(s, 0.0);
+            let doubtful = inside & (edges[0].eq(zero) | edges[1].eq(zero) | edges[2].eq(zero));
+            if doubtful.any() {
+                edges = exact_edges(s, doubtful, [[ax, ay], [bx, by], [cx, cy]], edges);
+                inside = same_signs(s, edges);
+            }
+        }
+
+        let [u, v, w] = edges;
+        // Without area t is NaN, or infinite where the area vanishes in the reciprocal: beyond any
+        // limit.
+        let inv_det = C::of(s, u + v + w);
+        let t = A::mul_add(w, c.z, A::mul_add(v, b.z, u * a.z)) * inv_det * shear.z;
+        let candidates = inside & packet.tmin.le(t) & t.le(limit);
+        let (u, v) = (v * inv_det, w * inv_det);
+        if !OWN_BOX {
+            return Some(Found { mask: candidates, t, u, v });
+        }
+        if candidates.none() {
+            return None;
+        }
+        let (enter, exit) = robust::enter_exit(s, &records.own_boxes(s), packet, frame);
+        let t = t.max(enter);
+        let mask = candidates & enter.le(exit) & packet.tmin.le(exit) & t.le(limit);
+        Some(Found { mask, t, u, v })
     }
 }
 

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use crate::Primitives;
+use crate::geom::Triangle;
 use glam::{DVec3, Vec3};
-use rt_kernels::Primitives;
-use rt_kernels::geom::Triangle;
 
 /// Triangles by the indices of their corners.
 #[derive(Clone, Debug)]

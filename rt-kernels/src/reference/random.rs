@@ -1,6 +1,6 @@
-//! Random numbers for tests in bulk: the same on every machine, and of no quality to speak of.
+//! Random numbers in bulk: the same on every machine, and of no quality to speak of.
 
-use glam::Vec3;
+use glam::{DQuat, Vec3};
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
 #[derive(Clone, Debug)]
@@ -59,6 +59,17 @@ impl Random {
             let point = self.in_cube();
             if (1e-6..=1.0).contains(&point.length_squared()) {
                 return point;
+            }
+        }
+    }
+
+    /// A rotation, any as likely as any other.
+    pub fn rotation(&mut self) -> DQuat {
+        loop {
+            let [x, y, z, w] = [(); 4].map(|()| 2.0 * self.unit() - 1.0);
+            let quat = DQuat::from_xyzw(x, y, z, w);
+            if (1e-6..=1.0).contains(&quat.length_squared()) {
+                return quat.normalize();
             }
         }
     }

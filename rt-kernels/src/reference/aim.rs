@@ -1,9 +1,9 @@
 //! Rays that are aimed at something.
 
+use crate::Ray;
 use glam::Vec3;
-use rt_kernels::Ray;
 
-use crate::random::power;
+use super::random::power;
 
 /// The ray from `origin` through `target`, which it reaches at a `t` of 1.
 pub fn at(origin: Vec3, target: Vec3) -> Ray {

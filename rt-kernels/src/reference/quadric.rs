@@ -1,0 +1,233 @@
+//! Where a ray meets a curved surface, in numbers of 106 bits.
+//!
+//! All is computed with a bound for its error, about 2^-95 of the largest term. Where that does not
+//! tell one answer from the other (the ray touches the surface, or meets it at its own end or where
+//! the surface ends, so nearly that none of 30 decimals differs), the verdict is that it is too close
+//! to call.
+
+use std::cmp::Ordering;
+
+use glam::{DVec3, Vec3};
+
+use super::ROUNDOFF;
+use super::ball::Ball;
+use crate::Ray;
+use crate::geom::{Curved, Quadric};
+
+/// What is so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Meeting {
+    /// The ray meets the surface first at this t, which is right to 2^-40.
+    At(f64),
+    /// It does not, or it goes nowhere, or a number is not finite.
+    Nowhere,
+    /// Too close to call.
+    Unsure,
+}
+
+/// The whole truth.
+#[derive(Clone, Copy, Debug)]
+pub struct Verdict {
+    /// The first t within the ray's interval, both ends included, at which it meets what is left of
+    /// the surface, both ends included. A ray that runs along a straight line of the surface does
+    /// not meet it.
+    pub meeting: Meeting,
+    /// How far the ray is from where the answer would be another: the line from touching the
+    /// surface, a meeting from the ray's or the surface's end. In units of 2^-24 of the greatest
+    /// coordinate of the origin and of the point that is nearest to the centre, seen from there;
+    /// roughly. Not negative.
+    pub band: f64,
+}
+
+/// Judges a ray and a surface.
+pub fn judge(ray: &Ray, surface: &Curved) -> Verdict {
+    let nowhere = Verdict { meeting: Meeting::Nowhere, band: 0.0 };
+    let (quadric, level) = match *surface {
+        Curved::Sphere(sphere) => {
+            (Quadric::from(sphere), Ball::new(sphere.radius) * Ball::new(sphere.radius))
+        }
+        Curved::Quadric(quadric) => (quadric, Ball::new(quadric.level)),
+    };
+    let Quadric { center, matrix, axis, range, .. } = quadric;
+    let finite = [ray.origin, ray.dir, center, axis].iter().all(|v| v.is_finite())
+        && matrix.iter().chain(&range).all(|number| number.is_finite())
+        && level.value().is_finite();
+    if !finite || ray.dir == Vec3::ZERO || ray.tmin.is_nan() || ray.tmax.is_nan() {
+        return nowhere;
+    }
+    let [[x, y, z], [cx, cy, cz]] = [vector(ray.origin), vector(center)];
+    let from_center = [x - cx, y - cy, z - cz];
+    let dir = vector(ray.dir);
+    let turned = turn(matrix, dir);
+    // a t² + 2 b t + c = 0.
+    let a = dot(dir, turned);
+    let b = dot(from_center, turned);
+    let c = dot(from_center, turn(matrix, from_center)) - level;
+    let discriminant = b * b - a * c;
+
+    let scene = Scene { ray, from_center, dir, axis: vector(axis), range };
+    let (meeting, ends) = match discriminant.sign() {
+        Some(Ordering::Less) => (Meeting::Nowhere, f64::INFINITY),
+        Some(Ordering::Greater) => {
+            let root = discriminant.sqrt();
+            let q = if b.value() > 0.0 { -b - root } else { root - b };
+            let near = c / q;
+            match a.sign() {
+                Some(Ordering::Equal) => scene.first(&[near]),
+                // The other root is very far, on this side or the other.
+                None => match scene.first(&[near]) {
+                    (Meeting::Nowhere, ends) => (Meeting::Unsure, ends),
+                    known => known,
+                },
+                Some(_) => {
+                    let far = q / a;
+                    let ordered = near.value() < far.value();
+                    scene.first(&if ordered { [near, far] } else { [far, near] })
+                }
+            }
+        }
+        // The ray runs along the surface's axis: nowhere, or all the way.
+        _ if a.sign() == b.sign() && b.sign() == Some(Ordering::Equal) => return nowhere,
+        _ => (Meeting::Unsure, f64::INFINITY),
+    };
+
+    // The point midway between the roots is about as far from touching as the form says of it, over
+    // the form's slope there.
+    let (a, b, c) = (a.value(), b.value(), c.value());
+    let (t, depth) = if a == 0.0 { (0.0, c) } else { (-b / a, discriminant.value() / a) };
+    let origin = DVec3::from_array(from_center.map(Ball::value));
+    let midway = origin + ray.dir.as_dvec3() * t;
+    let slope = 2.0 * (quadric.matrix().as_dmat3() * midway).length();
+    let greatest = midway.abs().max(origin.abs()).max_element();
+    Verdict { meeting, band: (depth / slope).abs().min(ends) / (ROUNDOFF * greatest) }
+}
+
+/// What is left to know once there are roots.
+struct Scene<'a> {
+    ray: &'a Ray,
+    from_center: [Ball; 3],
+    dir: [Ball; 3],
+    axis: [Ball; 3],
+    range: [f32; 2],
+}
+
+impl Scene<'_> {
+    /// The first of the roots that counts, and how far in space the nearest end is from any of them.
+    fn first(&self, roots: &[Ball]) -> (Meeting, f64) {
+        let ends = roots.iter().map(|&t| self.to_ends(t)).fold(f64::INFINITY, f64::min);
+        for &t in roots {
+            match self.counts(t) {
+                Some(true) if t.error() <= t.value().abs() * PRECISE => {
+                    return (Meeting::At(t.value()), ends);
+                }
+                Some(false) => {}
+                _ => return (Meeting::Unsure, ends),
+            }
+        }
+        (Meeting::Nowhere, ends)
+    }
+
+    /// Whether the point at `t` is on what is left of ray and surface: `None` if that is too close
+    /// to call.
+    fn counts(&self, t: Ball) -> Option<bool> {
+        let [least, greatest] = self.range.map(Ball::new);
+        let along = self.along(t);
+        let tmax = self.ray.tmax.clamp(-f32::MAX, f32::MAX);
+        let ends =
+            [t - Ball::new(self.ray.tmin), Ball::new(tmax) - t, along - least, greatest - along];
+        let signs = ends.map(Ball::sign);
+        if signs.contains(&Some(Ordering::Less)) {
+            return Some(false);
+        }
+        (!signs.contains(&None)).then_some(true)
+    }
+
+    fn along(&self, t: Ball) -> Ball {
+        let [x, y, z] = self.dir.map(|d| d * t);
+        let [ox, oy, oz] = self.from_center;
+        dot(self.axis, [ox + x, oy + y, oz + z])
+    }
+
+    /// How far the point at `t` is from the ray's first end, and from the surface's ends.
+    fn to_ends(&self, t: Ball) -> f64 {
+        let length = |v: [Ball; 3]| DVec3::from_array(v.map(Ball::value)).length();
+        let along = self.along(t).value();
+        let across = self.range.map(|end| (along - f64::from(end)).abs() / length(self.axis));
+        let start = (t.value() - f64::from(self.ray.tmin)).abs() * length(self.dir);
+        // A surface without ends has no axis: NaN, which is never the least.
+        across.into_iter().fold(start, f64::min)
+    }
+}
+
+/// How right `t` is, relative to its size.
+const PRECISE: f64 = 1.0 / (1u64 << 40) as f64;
+
+fn vector(v: Vec3) -> [Ball; 3] {
+    v.to_array().map(Ball::new)
+}
+
+fn dot([ax, ay, az]: [Ball; 3], [bx, by, bz]: [Ball; 3]) -> Ball {
+    ax * bx + ay * by + az * bz
+}
+
+/// M v.
+fn turn(matrix: [f32; 6], v: [Ball; 3]) -> [Ball; 3] {
+    let [xx, yy, zz, yz, zx, xy] = matrix.map(Ball::new);
+    [dot([xx, xy, zx], v), dot([xy, yy, yz], v), dot([zx, yz, zz], v)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Sphere;
+
+    fn ray(origin: [f32; 3], dir: [f32; 3]) -> Ray {
+        Ray::new(Vec3::from_array(origin), Vec3::from_array(dir))
+    }
+
+    #[test]
+    fn a_sphere_is_met_in_its_first_root() {
+        let ball = Curved::Sphere(Sphere { center: Vec3::new(0.0, 0.0, 8.0), radius: 2.0 });
+        let along = ray([0.0; 3], [0.0, 0.0, 0.5]);
+        let meeting = |ray: &Ray| judge(ray, &ball).meeting;
+        assert_eq!(meeting(&along), Meeting::At(12.0));
+        assert_eq!(meeting(&Ray { tmin: 13.0, ..along }), Meeting::At(20.0));
+        assert_eq!(meeting(&Ray { tmin: 20.5, ..along }), Meeting::Nowhere);
+        assert_eq!(meeting(&Ray { tmax: 11.5, ..along }), Meeting::Nowhere);
+        assert_eq!(meeting(&ray([2.0, 0.0, 0.0], [0.0, 0.0, 1.0])), Meeting::Unsure, "touches");
+        let off = 2f32.next_up();
+        assert_eq!(meeting(&ray([off, 0.0, 0.0], [0.0, 0.0, 1.0])), Meeting::Nowhere);
+        let on = 2f32.next_down();
+        assert!(matches!(meeting(&ray([on, 0.0, 0.0], [0.0, 0.0, 1.0])), Meeting::At(_)));
+        // A unit in the last place of 2, where the greatest coordinate is 8.
+        assert!((judge(&ray([off, 0.0, 0.0], [0.0, 0.0, 1.0]), &ball).band - 0.5).abs() < 1e-3);
+        assert_eq!(meeting(&ray([f32::NAN; 3], [0.0, 0.0, 1.0])), Meeting::Nowhere);
+    }
+
+    #[test]
+    fn cylinders_and_cones_end_where_they_end() {
+        let cylinder = Curved::Quadric(Quadric::cylinder(Vec3::ZERO, Vec3::Z, 3.0, 4.0));
+        let at = |ray: Ray, surface: &Curved| judge(&ray, surface).meeting;
+        assert_eq!(at(ray([5.0, 0.0, 1.0], [-1.0, 0.0, 0.0]), &cylinder), Meeting::At(2.0));
+        assert_eq!(at(ray([5.0, 0.0, 4.5], [-1.0, 0.0, 0.0]), &cylinder), Meeting::Nowhere);
+        // Over the rim, to the far side.
+        assert_eq!(at(ray([6.0, 0.0, 8.0], [-1.0, 0.0, -1.0]), &cylinder), Meeting::At(9.0));
+        assert_eq!(at(ray([0.0, 0.0, 9.0], [0.0, 0.0, -1.0]), &cylinder), Meeting::Nowhere);
+        let cone = Curved::Quadric(Quadric::cone(Vec3::ZERO, Vec3::Z, 0.5, 4.0));
+        assert_eq!(at(ray([5.0, 0.0, 2.0], [-1.0, 0.0, 0.0]), &cone), Meeting::At(4.0));
+        assert_eq!(at(ray([5.0, 0.0, -2.0], [-1.0, 0.0, 0.0]), &cone), Meeting::Nowhere);
+        // Along the side: one root only.
+        assert_eq!(at(ray([1.0, 0.0, 4.0], [-1.0, 0.0, -2.0]), &cone), Meeting::At(1.5));
+    }
+
+    #[test]
+    fn ellipsoids_are_as_long_as_they_are() {
+        let egg = Curved::Quadric(Quadric::ellipsoid(Vec3::ONE, Vec3::new(1.0, 2.0, 4.0)));
+        for (axis, half) in [(0, 1.0), (1, 2.0), (2, 4.0)] {
+            let mut dir = Vec3::ZERO;
+            dir[axis] = 1.0;
+            let from = Ray::new(Vec3::ONE - dir * 8.0, dir);
+            assert_eq!(judge(&from, &egg).meeting, Meeting::At(8.0 - half));
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! What kernels keep of triangles, one by one and in lanes.
+
+use simd4::math::Vec3;
+use simd4::{Block16, Lanes, Simd, SimdF32, spec};
+
+use crate::geom::{Aabb, PADDING, Triangle};
+use crate::packet::{Axes, Boxes, OwnAxes, OwnBoxes, SameAxis};
+
+/// What a kernel keeps of a triangle: 48 bytes, three blocks of 16 (Geimer and Müller 2003,
+/// Section 3.2). What the three rows of numbers are is the kernel's choice.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(16))]
+pub struct Record {
+    rows: [Row; 3],
+}
+
+/// Three numbers, and a word in the padding: the triangle's number in the first row, an axis in the
+/// second.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+struct Row {
+    numbers: [f32; 3],
+    word: u32,
+}
+
+const _: () = assert!(size_of::<Record>() == 48);
+
+impl Record {
+    /// Three rows and an axis, 0 to 2.
+    pub fn new(rows: [[f32; 3]; 3], prim: u32, axis: u32) -> Record {
+        let [a, b, c] = rows;
+        let row = |numbers, word| Row { numbers, word };
+        Record { rows: [row(a, prim), row(b, axis), row(c, 0)] }
+    }
+
+    /// The corners.
+    pub fn corners(triangle: &Triangle, prim: u32) -> Record {
+        Record::new(triangle.corners.map(|corner| corner.to_array()), prim, 0)
+    }
+
+    /// What no ray meets, with any kernel.
+    pub fn nothing() -> Record {
+        Record::new([[f32::NAN; 3]; 3], 0, 0)
+    }
+}
+
+/// Records as a kernel sees them: one in all lanes (`&Record`) or each lane its own ([`BlockLanes`]).
+pub trait Records<V: SimdF32> {
+    /// Where the records' axes differ, their choice does.
+    type Axes: Axes<V>;
+    /// As many boxes.
+    type Boxes: Boxes<V>;
+
+    /// Number `k` of a row.
+    fn get(&self, s: V::Simd, row: usize, k: usize) -> V;
+
+    /// The triangles' numbers.
+    fn prim(&self, s: V::Simd) -> V::U32;
+
+    /// The records' axes.
+    fn axes(&self, s: V::Simd) -> Self::Axes;
+
+    /// The own boxes of triangles of which the rows are the corners, the same bits as
+    /// [`Triangle::own_box`].
+    fn own_boxes(&self, s: V::Simd) -> Self::Boxes;
+
+    /// A row.
+    #[inline(always)]
+    fn vec3(&self, s: V::Simd, row: usize) -> Vec3<V> {
+        Vec3::new(self.get(s, row, 0), self.get(s, row, 1), self.get(s, row, 2))
+    }
+}
+
+impl<V: SimdF32> Records<V> for Record {
+    type Axes = SameAxis;
+    type Boxes = Aabb;
+
+    #[inline(always)]
+    fn get(&self, s: V::Simd, row: usize, k: usize) -> V {
+        V::splat(s, self.rows[row].numbers[k % 3])
+    }
+
+    #[inline(always)]
+    fn prim(&self, s: V::Simd) -> V::U32 {
+        V::U32::splat(s, self.rows[0].word)
+    }
+
+    #[inline(always)]
+    fn axes(&self, _: V::Simd) -> SameAxis {
+        SameAxis::new(self.rows[1].word as usize)
+    }
+
+    /// All axes at once.
+    #[inline(always)]
+    fn own_boxes(&self, s: V::Simd) -> Aabb {
+        own_box(s, self)
+    }
+}
+
+#[inline(always)]
+fn own_box<S: Simd>(s: S, Record { rows: [a, b, c] }: &Record) -> Aabb {
+    let (a, b, c) = (block(s, a.numbers), block(s, b.numbers), block(s, c.numbers));
+    let min = a.min(b).min(c);
+    let max = a.max(b).max(c);
+    let [x, y, z, _] = (max - min).to_array();
+    let extent = spec::max(spec::max(x, y), z);
+    let magnitude = min.abs().max(max.abs());
+    let pad = S::f32x4::splat(s, extent * PADDING) + magnitude * S::f32x4::splat(s, f32::EPSILON);
+    let [x0, y0, z0, _] = (min - pad).to_array();
+    let [x1, y1, z1, _] = (max + pad).to_array();
+    Aabb { axes: [[x0, x1], [y0, y1], [z0, z1]] }
+}
+
+/// A corner in one register; the fourth lane is of no account.
+#[inline(always)]
+fn block<S: Simd>(s: S, [x, y, z]: [f32; 3]) -> S::f32x4 {
+    S::f32x4::from_array(s, [x, y, z, 0.0])
+}
+
+/// Sixteen records by component (SoA): as many steps of lanes as a level needs for them.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct RecordBlock {
+    numbers: [[Block16<f32>; 3]; 3],
+    prim: Block16<u32>,
+    axis: Block16<u32>,
+}
+
+impl RecordBlock {
+    /// The number of records in a block.
+    pub const LANES: usize = 16;
+
+    /// At most sixteen records; the rest of the block is [nothing](Record::nothing).
+    ///
+    /// # Panics
+    /// If there are more.
+    pub fn new(records: &[Record]) -> RecordBlock {
+        let mut block = RecordBlock {
+            numbers: [[Block16([f32::NAN; 16]); 3]; 3],
+            prim: Block16([0; 16]),
+            axis: Block16([0; 16]),
+        };
+        for (lane, record) in records.iter().enumerate() {
+            for (rows, row) in block.numbers.iter_mut().zip(record.rows) {
+                for (numbers, number) in rows.iter_mut().zip(row.numbers) {
+                    numbers[lane] = number;
+                }
+            }
+            block.prim[lane] = record.rows[0].word;
+            block.axis[lane] = record.rows[1].word;
+        }
+        block
+    }
+}
+
+/// Some neighbours in a block, as many as a vector has lanes.
+#[derive(Clone, Copy, Debug)]
+pub struct BlockLanes<'a> {
+    block: &'a RecordBlock,
+    first: usize,
+}
+
+impl<'a> BlockLanes<'a> {
+    /// Those from `first` on, which is a multiple of the number of lanes.
+    #[inline(always)]
+    pub fn new(block: &'a RecordBlock, first: usize) -> Self {
+        BlockLanes { block, first }
+    }
+
+    /// The lanes of some numbers of the block.
+    #[inline(always)]
+    fn load<V: Lanes>(&self, s: V::Simd, from: &Block16<V::Elem>) -> V {
+        // The mask tells the compiler that the lanes are within the block.
+        V::load(s, &from.0[self.first & (RecordBlock::LANES - V::LANES)..])
+    }
+}
+
+impl<V: SimdF32> Records<V> for BlockLanes<'_> {
+    type Axes = OwnAxes<V::Mask>;
+    type Boxes = OwnBoxes<V>;
+
+    #[inline(always)]
+    fn get(&self, s: V::Simd, row: usize, k: usize) -> V {
+        self.load(s, &self.block.numbers[row][k % 3])
+    }
+
+    #[inline(always)]
+    fn prim(&self, s: V::Simd) -> V::U32 {
+        self.load(s, &self.block.prim)
+    }
+
+    #[inline(always)]
+    fn axes(&self, s: V::Simd) -> OwnAxes<V::Mask> {
+        let axis: V::U32 = self.load(s, &self.block.axis);
+        OwnAxes([axis.eq(V::U32::splat(s, 0)), axis.eq(V::U32::splat(s, 1))])
+    }
+
+    #[inline(always)]
+    fn own_boxes(&self, s: V::Simd) -> OwnBoxes<V> {
+        let [a, b, c]: [Vec3<V>; 3] = [self.vec3(s, 0), self.vec3(s, 1), self.vec3(s, 2)];
+        let (x, y, z) = (range(a.x, b.x, c.x), range(a.y, b.y, c.y), range(a.z, b.z, c.z));
+        let extent = (x[1] - x[0]).max(y[1] - y[0]).max(z[1] - z[0]) * V::splat(s, PADDING);
+        OwnBoxes([padded(s, x, extent), padded(s, y, extent), padded(s, z, extent)])
+    }
+}
+
+/// The least and the greatest of three.
+#[inline(always)]
+fn range<V: SimdF32>(a: V, b: V, c: V) -> [V; 2] {
+    [a.min(b).min(c), a.max(b).max(c)]
+}
+
+#[inline(always)]
+fn padded<V: SimdF32>(s: V::Simd, [min, max]: [V; 2], extent: V) -> [V; 2] {
+    let pad = extent + min.abs().max(max.abs()) * V::splat(s, f32::EPSILON);
+    [min - pad, max + pad]
+}
