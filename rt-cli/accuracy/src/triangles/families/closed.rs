@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 
 use glam::{DVec3, Vec3};
 use rt_kernels::Ray;
+use rt_kernels::geom::Triangle;
 
 use super::{Batch, TriangleFamily};
 use crate::place::Place;
@@ -137,6 +138,17 @@ pub(super) const RANDOM: TriangleFamily = TriangleFamily {
     make: random_directions,
 };
 
+pub(super) const CAMERA: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "camera",
+        about: "eight by eight neighbouring pixels of 512 by 512, seen from inside a mesh of 80 triangles",
+        kind: Kind::Natural,
+        fair: true,
+        setting: Setting::UNIT,
+    },
+    make: camera,
+};
+
 /// No axis is squeezed.
 const ROUND: DVec3 = DVec3::ONE;
 
@@ -242,18 +254,33 @@ fn along_axis(center: Vec3, target: Vec3, negative_zeros: bool) -> Ray {
     Ray::new(origin, dir)
 }
 
-fn random_directions(random: &mut Random, place: &mut Place) -> Batch {
+/// All triangles of a coarser ball.
+fn small_ball(place: &mut Place) -> Vec<Triangle> {
     static BALL: OnceLock<Ball> = OnceLock::new();
     let ball = BALL.get_or_init(|| Ball::new(1));
     let vertices: Vec<Vec3> = ball.vertices.iter().map(|&v| place.point(v)).collect();
-    let triangles = ball.faces.iter().map(|face| {
-        let corners = face.map(|i| vertices[i as usize]);
-        place.triangle(corners)
-    });
-    let triangles = triangles.collect();
+    let triangle = |face: &[u32; 3]| place.triangle(face.map(|i| vertices[i as usize]));
+    ball.faces.iter().map(triangle).collect()
+}
+
+fn random_directions(random: &mut Random, place: &mut Place) -> Batch {
+    let triangles = small_ball(place);
     let rays = (0..BATCH).map(|_| {
         let ray = Ray::new(place.point(start(random)), random.direction());
         place.paced(ray)
+    });
+    Batch { rays: rays.collect(), triangles }
+}
+
+/// A square tile of a picture that is as wide as it is far away; the batch's rotation turns it.
+fn camera(random: &mut Random, place: &mut Place) -> Batch {
+    let triangles = small_ball(place);
+    let eye = start(random);
+    let tile = [(); 2].map(|()| 8 * random.below(64));
+    let rays = (0..BATCH).map(|i| {
+        let at = |first: usize, k: usize| ((first + k) as f64 + 0.5) / 512.0 - 0.5;
+        let pixel = DVec3::new(at(tile[0], i % 8), at(tile[1], i / 8), 1.0);
+        place.ray(place.point(eye), place.point(eye + pixel))
     });
     Batch { rays: rays.collect(), triangles }
 }

@@ -31,7 +31,7 @@ pub struct TriangleFamily {
 }
 
 impl TriangleFamily {
-    pub(super) const ALL: [TriangleFamily; 18] = [
+    pub(super) const ALL: [TriangleFamily; 20] = [
         closed::EDGE,
         closed::VERTEX,
         closed::AXIS,
@@ -43,8 +43,10 @@ impl TriangleFamily {
         closed::NEEDLE,
         grid::EXACT,
         grid::ROTATED,
+        grid::SPLIT_PLANE,
         closed::INTERIOR,
         closed::RANDOM,
+        closed::CAMERA,
         single::BAND,
         single::EDGE_ON,
         single::SPAWNED,
