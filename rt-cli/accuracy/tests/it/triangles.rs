@@ -69,8 +69,10 @@ fn the_closest_of_many_is_the_same_in_every_shape() {
 #[test]
 fn moller_trumbore_fails_the_edge_family() {
     let mut subjects = samples::<TriangleFamily>();
-    subjects.retain(|subject| subject.kernel.name() == "moller-trumbore");
-    assert!(subjects.len() >= 4, "{subjects:?}");
+    // An estimate that errs to one side closes cracks, and hits twice instead.
+    subjects
+        .retain(|Subject { kernel, .. }| kernel.name() == "moller-trumbore" && kernel.is_exact());
+    assert!(subjects.len() >= 2, "{subjects:?}");
     for name in ["edge", "vertex", "tiny", "far", "rotated grid"] {
         for row in shown::<TriangleFamily>(&subjects, name, 8_192) {
             assert!(row.per_million(row.tally.leaks) > 5_000.0, "{row:?}");
