@@ -20,7 +20,7 @@ const SCENE: &str = "An OBJ or NFF file, or spd:NAME[:SIZE] for a procedural sce
 #[command(name = "rt", version, max_term_width = 100, disable_help_subcommand = true)]
 #[command(after_help = "Begin with:\n  \
     rt render spd:balls -o balls.png\n\n\
-    Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted")]
+    Exit codes: 0 done, 1 failed, 2 wrong usage, 3 less accurate than it should be, 130 interrupted")]
 pub(crate) struct Args {
     /// What to do.
     #[command(subcommand)]
@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Gen(GenArgs),
     Info(InfoArgs),
     Bench(BenchArgs),
+    Accuracy(AccuracyArgs),
+    Chart(ChartArgs),
 }
 
 /// Render one picture of a scene.
@@ -264,6 +266,76 @@ pub(crate) struct BenchArgs {
     /// Write the rows to a .json file too; - for standard output, where no table is then.
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
+}
+
+/// Show every kernel every family of inputs that are hard on it, and count what it gets wrong.
+///
+/// Exact arithmetic is the judge. Each kernel is run at every level that the CPU has, one ray at a
+/// time, rays in lanes and primitives in lanes; the table shows rays in lanes at the best level, the
+/// file all. If a kernel is less accurate than it is known to be, the exit code is 3.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt accuracy --quick\n  \
+    rt accuracy --json accuracy.json && rt chart --from accuracy.json -o chart.svg")]
+pub(crate) struct AccuracyArgs {
+    #[command(flatten)]
+    pub(crate) measure: MeasureArgs,
+    /// Write all rows to a .json file too; - for standard output, where no table is then.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+/// How much to measure.
+#[derive(Group)]
+#[group(multiple = true)]
+pub(crate) struct MeasureArgs {
+    /// Fewer rays: some seconds.
+    #[arg(long)]
+    quick: bool,
+    /// Rays of each family [default: 1000000, or 8192 with --quick].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    rays: Option<u32>,
+    /// How often everything is timed [default: 21, or 5 with --quick].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    rounds: Option<u16>,
+    /// Which random numbers to use.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Say nothing but errors.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+impl MeasureArgs {
+    /// Rays of each family.
+    pub(crate) fn rays(&self) -> usize {
+        self.rays.unwrap_or(if self.quick { 8_192 } else { 1_000_000 }) as usize
+    }
+
+    /// How often everything is timed.
+    pub(crate) fn rounds(&self) -> usize {
+        self.rounds.unwrap_or(if self.quick { 5 } else { 21 }).into()
+    }
+}
+
+/// Draw speed against accuracy: what every kernel costs and how often it is wrong.
+///
+/// Measures as rt accuracy does, or takes files that rt accuracy --json has written, all of one
+/// machine. The picture is SVG.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt chart --quick -o accuracy.svg\n  \
+    rt chart --from accuracy.json -o accuracy.svg\n  \
+    rt chart --from triangles.json boxes.json -o accuracy.svg")]
+pub(crate) struct ChartArgs {
+    /// The .json files to draw, together; nothing is measured then.
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["quick", "rays", "rounds", "seed"])]
+    pub(crate) from: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) measure: MeasureArgs,
+    /// The .svg file to write; - for standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]

@@ -2,8 +2,9 @@
 
 use std::io;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
-/// A command failed: exit code 1. Its text is complete: it needs no source beside it.
+/// A command failed. Its text is complete: it needs no source beside it.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Error {
     /// The scene cannot be read.
@@ -20,6 +21,25 @@ pub(crate) enum Error {
         /// Why not, and what there is.
         source: rt_render::LevelError,
     },
+    /// A file of measured rows cannot be read.
+    #[error("cannot read {}: {}", path.display(), reason(source))]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A file is not one of measured rows.
+    #[error("{}:{}:{}: {}", path.display(), source.line(), source.column(), complaint(source))]
+    Rows {
+        /// The file.
+        path: PathBuf,
+        /// Where, and what is wrong there.
+        source: serde_json::Error,
+    },
+    /// Measured rows do not make a chart.
+    #[error("no chart: {0}")]
+    Chart(String),
     /// A file cannot be written.
     #[error("cannot write {}: {}", path.display(), reason(source))]
     Write {
@@ -42,6 +62,9 @@ pub(crate) enum Error {
     /// Two outputs would go to one place.
     #[error("{}: picture and statistics cannot go to the same place", .0.display())]
     SameOutput(PathBuf),
+    /// A kernel is less accurate than it is known to be.
+    #[error("less accurate than it should be:\n  {}", .0.join("\n  "))]
+    Inaccurate(Vec<String>),
     /// A way to trace gave other hits than another. This is a fault of the program.
     #[error("{scene}: {differing} hits differ between {way} and the first row: please report this")]
     Differ {
@@ -55,14 +78,41 @@ pub(crate) enum Error {
 }
 
 impl Error {
+    /// What the program says to scripts: 3 for a threshold that was missed, 1 for all else.
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        match self {
+            Error::Inaccurate(_) => ExitCode::from(3),
+            _ => ExitCode::FAILURE,
+        }
+    }
+
     /// Whether its text begins with the place that it is about.
     pub(crate) fn has_place(&self) -> bool {
-        matches!(self, Error::Scene(rt_scene::Error::Invalid(_)))
+        matches!(self, Error::Scene(rt_scene::Error::Invalid(_)) | Error::Rows { .. })
     }
+}
+
+/// What is wrong with JSON, without the place.
+fn complaint(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    text.rsplit_once(" at line ").map_or(text.clone(), |(words, _)| words.to_owned())
 }
 
 /// The system's words without its error number.
 pub(crate) fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     text.split_once(" (os error ").map_or(text.clone(), |(words, _)| words.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missed_threshold_has_a_code_of_its_own() {
+        let missed = Error::Inaccurate(vec!["a".to_owned(), "b".to_owned()]);
+        assert_eq!(missed.to_string(), "less accurate than it should be:\n  a\n  b");
+        assert_eq!(missed.exit_code(), ExitCode::from(3));
+        assert_eq!(Error::SameOutput("x".into()).exit_code(), ExitCode::FAILURE);
+    }
 }

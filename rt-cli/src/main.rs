@@ -1,8 +1,9 @@
-//! `rt`: renders, inspects and measures scenes. Thin: what it does is done by rt-scene and
-//! rt-render.
+//! `rt`: renders, inspects and measures scenes. Thin: what it does is done by rt-scene,
+//! rt-render and rt-accuracy.
 #![forbid(unsafe_code)]
 
 mod args;
+mod chart;
 mod cmd;
 mod error;
 mod output;
@@ -20,12 +21,14 @@ fn main() -> ExitCode {
         args::Command::Gen(args) => cmd::generate::run(args),
         args::Command::Info(args) => cmd::info::run(args),
         args::Command::Bench(args) => cmd::bench::run(args),
+        args::Command::Accuracy(args) => cmd::accuracy::run(args),
+        args::Command::Chart(args) => cmd::chart::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             ui::error(&error);
-            ExitCode::FAILURE
+            error.exit_code()
         }
     }
 }

@@ -50,6 +50,7 @@
 mod brute;
 pub mod bvh;
 pub mod camera;
+pub mod catalogue;
 pub mod geom;
 pub mod packet;
 mod primitives;

@@ -45,6 +45,17 @@ impl Exec {
         Exec { level, packet: PacketSize::Native }
     }
 
+    /// What it comes to with a triangle test: for some there are only single rays and registers.
+    #[must_use]
+    pub fn with(self, method: Method) -> Exec {
+        let packet = match self.packet {
+            PacketSize::Single => PacketSize::Single,
+            asked if with_kernel!(method, K => K::ANY_PACKET) => asked,
+            _ => PacketSize::Native,
+        };
+        Exec { packet, ..self }
+    }
+
     /// The number of rays in a packet.
     pub fn lanes(&self) -> usize {
         match self.packet {
@@ -96,16 +107,18 @@ macro_rules! accelerator {
         impl Accelerator for $Type {
             fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats) {
                 hits.resize(rays.len());
-                with_kernel!(Traverse::method(self), K => {
-                    run(exec, rays, &mut ClosestOf::<_, K>(self, hits, PhantomData), stats);
+                let method = Traverse::method(self);
+                with_kernel!(method, K => {
+                    run(exec.with(method), rays, &mut ClosestOf::<_, K>(self, hits, PhantomData), stats);
                 });
             }
 
             fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats) {
                 found.clear();
                 found.resize(rays.len(), false);
-                with_kernel!(Traverse::method(self), K => {
-                    run(exec, rays, &mut AnyOf::<_, K>(self, found, PhantomData), stats);
+                let method = Traverse::method(self);
+                with_kernel!(method, K => {
+                    run(exec.with(method), rays, &mut AnyOf::<_, K>(self, found, PhantomData), stats);
                 });
             }
 
@@ -121,6 +134,9 @@ accelerator!(Bvh);
 
 /// What is done with each packet of a batch.
 trait Batch {
+    /// See [`TriangleKernel::ANY_PACKET`].
+    const ANY_PACKET: bool;
+
     fn packet<V: SimdF32>(
         &mut self,
         s: V::Simd,
@@ -133,6 +149,8 @@ trait Batch {
 struct ClosestOf<'a, T, K>(&'a T, &'a mut Hits, PhantomData<K>);
 
 impl<T: Traverse, K: TriangleKernel> Batch for ClosestOf<'_, T, K> {
+    const ANY_PACKET: bool = K::ANY_PACKET;
+
     #[inline(always)]
     fn packet<V: SimdF32>(
         &mut self,
@@ -150,6 +168,8 @@ impl<T: Traverse, K: TriangleKernel> Batch for ClosestOf<'_, T, K> {
 struct AnyOf<'a, T, K>(&'a T, &'a mut [bool], PhantomData<K>);
 
 impl<T: Traverse, K: TriangleKernel> Batch for AnyOf<'_, T, K> {
+    const ANY_PACKET: bool = K::ANY_PACKET;
+
     #[inline(always)]
     fn packet<V: SimdF32>(
         &mut self,
@@ -179,7 +199,7 @@ fn in_frame<K: TriangleKernel, V: SimdF32, T: Traverse, Q: Query<V>>(
 }
 
 /// Cuts a batch into packets, once the level and the packet size are known.
-fn run(exec: Exec, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
+fn run<B: Batch>(exec: Exec, rays: &Rays, batch: &mut B, stats: &mut Stats) {
     match exec.packet {
         PacketSize::Single => packets::<scalar::f32x1>(simd4::Scalar::new(), rays, batch, stats),
         _ => match exec.lanes() {
@@ -190,22 +210,32 @@ fn run(exec: Exec, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
     }
 }
 
-/// For registers that neither of the others is for: there is no code for one type twice.
+// There is code only for what can come, and for no type twice.
+
 #[inline(always)]
 fn native<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
-    if const { <S::f32s as Lanes>::LANES != 4 && <S::f32s as Lanes>::LANES != 8 } {
+    if const { lanes::<S>() != 4 && lanes::<S>() != 8 } {
         packets::<S::f32s>(s, rays, batch, stats);
     }
 }
 
 #[inline(always)]
-fn four<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
-    packets::<S::f32x4>(s, rays, batch, stats);
+fn four<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) {
+    if const { B::ANY_PACKET || lanes::<S>() == 4 } {
+        packets::<S::f32x4>(s, rays, batch, stats);
+    }
 }
 
 #[inline(always)]
-fn eight<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
-    packets::<S::f32x8>(s, rays, batch, stats);
+fn eight<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) {
+    if const { B::ANY_PACKET || lanes::<S>() == 8 } {
+        packets::<S::f32x8>(s, rays, batch, stats);
+    }
+}
+
+/// How many lanes a register has.
+const fn lanes<S: Simd>() -> usize {
+    <S::f32s as Lanes>::LANES
 }
 
 #[inline(always)]

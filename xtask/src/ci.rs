@@ -37,7 +37,7 @@ type Check = (&'static str, fn(&Shell, Options) -> Done);
 
 /// What is checked, in this order: the first [`TIDY`] take seconds, the first [`QUICK`] are for the
 /// inner loop.
-const CHECKS: [Check; 7] = [
+const CHECKS: [Check; 8] = [
     ("format", format),
     ("rooms", rooms),
     ("arrows", arrows),
@@ -45,6 +45,7 @@ const CHECKS: [Check; 7] = [
     ("docs", docs),
     ("licences", licences),
     ("fuzz targets", fuzz),
+    ("benches", benches),
 ];
 const TIDY: usize = 3;
 const QUICK: usize = 4;
@@ -207,6 +208,12 @@ fn licences(sh: &Shell, _: Options) -> Done {
     }
     // Not the advisories: they change without a change here.
     succeeds(cmd!(sh, "cargo deny --log-level error check licenses bans sources"))
+}
+
+/// Every bench runs once: that it does, and that what it computes is right. Nothing is timed.
+fn benches(sh: &Shell, _: Options) -> Done {
+    let benches = cmd!(sh, "cargo test --quiet --locked -p simd4 -p rt-kernels --benches");
+    succeeds(benches.ignore_stdout())
 }
 
 /// Passed if the command succeeds; what it prints passes through.

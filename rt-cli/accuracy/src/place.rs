@@ -3,27 +3,14 @@
 use glam::{DQuat, DVec3, Vec3};
 use rt_kernels::Ray;
 use rt_kernels::geom::Triangle;
-
 use rt_kernels::reference::aim;
 use rt_kernels::reference::random::Random;
 
-/// Rays to a batch.
-pub const BATCH: usize = 64;
-
-/// What a family leaves open.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Setting {
-    /// The stream of random numbers.
-    pub seed: u64,
-    /// The size of meshes and triangles.
-    pub scale: f32,
-    /// How far from the world's origin they are.
-    pub offset: f32,
-}
+use crate::Setting;
 
 /// Where a batch is, how large, how turned, and how its corners and axes are ordered.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub(crate) struct Place {
     rotation: DQuat,
     /// For each axis of the world, which axis it is of the unit world, and its sign.
     axes: [(usize, f64); 3],
@@ -60,25 +47,25 @@ impl Place {
     }
 
     /// A point of the unit world, rounded once.
-    pub fn point(&self, unit: DVec3) -> Vec3 {
+    pub(crate) fn point(&self, unit: DVec3) -> Vec3 {
         let turned = self.rotation * unit;
         let point = DVec3::from_array(self.axes.map(|(axis, sign)| turned[axis] * sign));
         (point * self.scale + self.offset).as_vec3()
     }
 
     /// A triangle of placed corners, in an order of its own.
-    pub fn triangle(&mut self, [a, b, c]: [Vec3; 3]) -> Triangle {
+    pub(crate) fn triangle(&mut self, [a, b, c]: [Vec3; 3]) -> Triangle {
         let orders = [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]];
         Triangle { corners: self.random.pick(&orders) }
     }
 
     /// The ray from one placed point through another, at this batch's pace.
-    pub fn ray(&self, origin: Vec3, target: Vec3) -> Ray {
+    pub(crate) fn ray(&self, origin: Vec3, target: Vec3) -> Ray {
         self.paced(aim::at(origin, target))
     }
 
     /// A ray at this batch's pace.
-    pub fn paced(&self, ray: Ray) -> Ray {
+    pub(crate) fn paced(&self, ray: Ray) -> Ray {
         Ray { dir: ray.dir * self.pace, ..ray }
     }
 }

@@ -33,7 +33,7 @@ pub struct Tally {
 impl Tally {
     /// Counts one ray: whether its family is of a closed surface, whether it and all triangles are
     /// finite, and for each triangle the truth and the answer.
-    pub(super) fn add(
+    pub(crate) fn add(
         &mut self,
         closed: bool,
         finite: bool,
@@ -65,8 +65,13 @@ impl Tally {
         self.nan_hits += u64::from(nan_hit);
     }
 
+    /// What 99 % of the errors of `t` are no greater than; 0 if there are too few of them to tell.
+    pub fn t_p99(&self) -> f64 {
+        if self.t_ulp.count() < 1_000 { 0.0 } else { self.t_ulp.at(0.99) }
+    }
+
     /// Adds the counts of other rays.
-    pub(super) fn merge(&mut self, other: &Tally) {
+    pub(crate) fn merge(&mut self, other: &Tally) {
         self.rays += other.rays;
         self.leaks += other.leaks;
         self.double_hits += other.double_hits;
@@ -94,7 +99,7 @@ const LEAST: f32 = 1.0 / 1024.0;
 const BIN: u32 = 23 - 5;
 
 impl Quantiles {
-    pub(super) fn add(&mut self, error: f64) {
+    pub(crate) fn add(&mut self, error: f64) {
         let bits = (error as f32).clamp(LEAST, f32::MAX).to_bits() - LEAST.to_bits();
         let bin = (bits >> BIN) as usize;
         if bin >= self.bins.len() {

@@ -1,6 +1,8 @@
 //! The subcommands, one file each.
 
+pub(crate) mod accuracy;
 pub(crate) mod bench;
+pub(crate) mod chart;
 pub(crate) mod generate;
 pub(crate) mod info;
 pub(crate) mod render;

@@ -61,7 +61,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
         integrator: args.shading.integrator.into(),
         depth: args.shading.depth,
         shadows: !args.shading.no_shadows,
-        exec,
+        exec: exec.with(kernel.method()),
         threads,
     };
     let progress = ui::Progress::new(args.progress, args.quiet);

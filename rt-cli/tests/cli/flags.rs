@@ -5,7 +5,9 @@ use crate::support::Scratch;
 #[test]
 fn help_fits_a_terminal_and_names_groups_and_defaults() {
     let scratch = Scratch::new();
-    for command in [&[][..], &["render"], &["info"], &["gen"], &["bench"]] {
+    for command in
+        [&[][..], &["render"], &["info"], &["gen"], &["bench"], &["accuracy"], &["chart"]]
+    {
         for flag in ["-h", "--help"] {
             let help = scratch.rt(&[command, &[flag]].concat()).exits(0).text();
             let long = help.lines().find(|line| line.chars().count() > 80);
@@ -102,6 +104,12 @@ fn wrong_usage_is_exit_code_2_and_does_nothing() {
         "info room.obj room.obj",
         "bench",
         "bench room.obj --rounds 0",
+        "chart",
+        "chart --from a.json --quick -o a.svg",
+        "chart --rays 0 -o a.svg",
+        "accuracy --rays many",
+        "chart --from a.json",
+        "chart --from -o a.svg",
     ] {
         let run = scratch.rt(&args.split_whitespace().collect::<Vec<_>>()).exits(2);
         assert!(run.stdout.is_empty(), "rt {args}");

@@ -2,8 +2,10 @@
 //!
 //! `RT_RUNNER=qemu-aarch64 cargo test -p rt-cli --target …` runs it under an emulator.
 
+mod accuracy;
 mod bad_input;
 mod bench;
+mod chart;
 mod flags;
 mod generate;
 mod info;

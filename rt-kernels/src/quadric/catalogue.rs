@@ -6,30 +6,13 @@ use std::marker::PhantomData;
 use super::form::{Ball, Central, World};
 use super::sweep::{self, Surfaces};
 use super::{OwnBoxSphere, QuadricKernel, Residual, Stable, Textbook};
+use crate::catalogue::{Listed, Shape, Way};
 use crate::geom::Curved;
 use crate::packet::{Hits, Rays};
-use crate::tri::Way;
 use crate::tri::knobs::{Fused, Plain};
 
-/// A [`QuadricKernel`] that is chosen at run time, batch by batch. The bits of all are the same on
-/// every level and machine: none estimates.
-pub trait QuadricTest: Send + Sync {
-    /// What the method is called.
-    fn name(&self) -> &'static str;
-
-    /// Its choices, in words.
-    fn variant(&self) -> String;
-
-    /// Whether it is the one that renders.
-    fn is_default(&self) -> bool;
-
-    /// Whether it can be run that way: one that [fuses](QuadricKernel::FUSED) with one lane, by
-    /// emulation, or at a level that does too.
-    fn runs(&self, way: Way) -> bool;
-
-    /// Whether it does so by emulation, so that its time means nothing.
-    fn is_emulated(&self, way: Way) -> bool;
-
+/// A [`QuadricKernel`] that is chosen at run time, batch by batch.
+pub trait QuadricTest: Listed {
     /// What it keeps of surfaces; they are numbered in their order. `None` if it is not made for
     /// one of them.
     fn surfaces(&self, surfaces: &[Curved]) -> Option<Surfaces>;
@@ -38,13 +21,13 @@ pub trait QuadricTest: Send + Sync {
     /// made as long as `rays`.
     ///
     /// # Panics
-    /// If it cannot be [run](QuadricTest::runs) that way.
+    /// If it cannot be [run](Listed::runs) that way.
     fn closest(&self, way: Way, surfaces: &Surfaces, rays: &Rays, hits: &mut Hits);
 }
 
 struct Entry<K>(PhantomData<fn() -> K>);
 
-impl<K: QuadricKernel> QuadricTest for Entry<K> {
+impl<K: QuadricKernel> Listed for Entry<K> {
     fn name(&self) -> &'static str {
         K::NAME
     }
@@ -57,14 +40,21 @@ impl<K: QuadricKernel> QuadricTest for Entry<K> {
         TypeId::of::<K>() == TypeId::of::<OwnBoxSphere>()
     }
 
+    /// None estimates.
+    fn is_exact(&self) -> bool {
+        true
+    }
+
     fn runs(&self, way: Way) -> bool {
         sweep::runs::<K>(way)
     }
 
     fn is_emulated(&self, way: Way) -> bool {
-        sweep::emulates::<K>(way)
+        K::FUSED && way.shape == Shape::One
     }
+}
 
+impl<K: QuadricKernel> QuadricTest for Entry<K> {
     fn surfaces(&self, surfaces: &[Curved]) -> Option<Surfaces> {
         Surfaces::new::<K>(surfaces)
     }
@@ -75,6 +65,7 @@ impl<K: QuadricKernel> QuadricTest for Entry<K> {
 }
 
 /// Every kernel with every choice, methods together.
+#[inline]
 pub fn catalogue() -> Vec<&'static dyn QuadricTest> {
     let mut all: Vec<&'static dyn QuadricTest> = Vec::new();
     macro_rules! with_each_form {

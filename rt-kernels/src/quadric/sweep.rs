@@ -4,9 +4,9 @@ use simd4::{Simd, SimdF32, dispatch, scalar};
 
 use super::record::BlockLanes;
 use super::{Found, QuadricKernel, Record, RecordBlock, Records};
+use crate::catalogue::{Shape, Way};
 use crate::geom::Curved;
 use crate::packet::{Closest, Frame, Hits, Packet, Query, Rays};
-use crate::tri::{Shape, Way};
 
 /// Surfaces as one kernel keeps them, for every [`Shape`].
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ pub(super) fn closest<K: QuadricKernel>(
         Shape::One => rays_in_lanes::<K, scalar::f32x1>(simd4::Scalar::new(), surfaces, rays, hits),
         _ if !runs::<K>(way) => panic!("{} does not run at {}", K::NAME, way.level),
         Shape::Rays => dispatch!(way.level, s => native_rays::<K, _>(s, surfaces, rays, hits)),
-        Shape::Triangles => {
+        Shape::Primitives => {
             dispatch!(way.level, s => native_surfaces::<K, _>(s, surfaces, rays, hits))
         }
     }
@@ -48,16 +48,7 @@ pub(super) fn closest<K: QuadricKernel>(
 
 /// Whether a kernel is there for a level and a shape.
 pub(super) fn runs<K: QuadricKernel>(way: Way) -> bool {
-    #[inline(always)]
-    fn fuses<S: Simd>(_: S) -> bool {
-        <S::f32s as SimdF32>::FUSED
-    }
-    way.shape == Shape::One || !K::FUSED || dispatch!(way.level, s => fuses(s))
-}
-
-/// Whether a kernel fuses there by emulation.
-pub(super) fn emulates<K: QuadricKernel>(way: Way) -> bool {
-    K::FUSED && way.shape == Shape::One
+    !K::FUSED || way.fuses()
 }
 
 /// Whether there is code of a kernel for vectors of that type.

@@ -1,7 +1,7 @@
 //! Rays that are aimed at something.
 
-use glam::Vec3;
 use crate::Ray;
+use glam::Vec3;
 
 use super::random::power;
 

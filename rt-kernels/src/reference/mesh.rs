@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use glam::{DVec3, Vec3};
 use crate::Primitives;
 use crate::geom::Triangle;
+use glam::{DVec3, Vec3};
 
 /// Triangles by the indices of their corners.
 #[derive(Clone, Debug)]

@@ -7,42 +7,23 @@ use super::conservative::{AsPrinted, Corrected};
 use super::knobs::{Bare, EachClipped, IntervalFirst, IntervalLast, Ize, Relative, Scaled};
 use super::sweep::{self, BoxSet, Crossings};
 use super::{BoxKernel, Conservative, Robust, SharedOrigin, Signed, Unordered};
+use crate::catalogue::{Listed, Shape, Way};
 use crate::packet::Rays;
-use crate::tri::Way;
 use crate::tri::knobs::{Division, Estimate, Refined};
 
-/// A [`BoxKernel`] that is chosen at run time, batch by batch.
-pub trait BoxTest: Send + Sync {
-    /// What the method is called.
-    fn name(&self) -> &'static str;
-
-    /// Its choices, in words.
-    fn variant(&self) -> String;
-
-    /// Whether it is the one that renders.
-    fn is_default(&self) -> bool;
-
-    /// Whether its answers are the same on every level and machine, with any number of lanes.
-    fn is_exact(&self) -> bool;
-
-    /// Whether it can be run that way: one that [fuses](BoxKernel::FUSED) with one lane, by
-    /// emulation, or at a level that does too; one that answers for a packet not with boxes in
-    /// lanes.
-    fn runs(&self, way: Way) -> bool;
-
-    /// Whether it does so by emulation, so that its time means nothing.
-    fn is_emulated(&self, way: Way) -> bool;
-
+/// A [`BoxKernel`] that is chosen at run time, batch by batch. One that answers for a whole packet
+/// does not run with boxes in lanes, nor does one that moves the boxes to the rays' origin.
+pub trait BoxTest: Listed {
     /// Shows every box to every ray. `crossings` is made as long as `rays`.
     ///
     /// # Panics
-    /// If it cannot be [run](BoxTest::runs) that way.
+    /// If it cannot be [run](Listed::runs) that way.
     fn cross(&self, way: Way, boxes: &BoxSet, rays: &Rays, crossings: &mut Crossings);
 }
 
 struct Entry<K>(PhantomData<fn() -> K>);
 
-impl<K: BoxKernel> BoxTest for Entry<K> {
+impl<K: BoxKernel> Listed for Entry<K> {
     fn name(&self) -> &'static str {
         K::NAME
     }
@@ -64,15 +45,18 @@ impl<K: BoxKernel> BoxTest for Entry<K> {
     }
 
     fn is_emulated(&self, way: Way) -> bool {
-        sweep::emulates::<K>(way)
+        K::FUSED && way.shape == Shape::One
     }
+}
 
+impl<K: BoxKernel> BoxTest for Entry<K> {
     fn cross(&self, way: Way, boxes: &BoxSet, rays: &Rays, crossings: &mut Crossings) {
         sweep::cross::<K>(way, boxes, rays, crossings);
     }
 }
 
 /// Every kernel with every choice, methods together.
+#[inline]
 pub fn catalogue() -> Vec<&'static dyn BoxTest> {
     let mut all: Vec<&'static dyn BoxTest> = Vec::new();
     macro_rules! with_each_reciprocal {

@@ -5,7 +5,7 @@
 //! they find the nearer plane of a pair, in what they make of 0 · ∞, which is what a ray has that
 //! starts in a plane and runs along it, and in whether they allow for rounding.
 //!
-//! A kernel is one text for three uses: rays in lanes against one box ([`Aabb`]), one ray in all
+//! A kernel is one text for three uses: rays in lanes against one box ([`Aabb`](crate::geom::Aabb)), one ray in all
 //! lanes against boxes in lanes ([`OwnBoxes`](crate::packet::OwnBoxes)), and one against one, which
 //! is the same with one lane. [`catalogue`] lists every kernel with every choice, so that tests,
 //! benches and charts are a loop; what renders is [`Robust`]'s default.

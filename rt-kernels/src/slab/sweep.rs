@@ -5,10 +5,10 @@ use simd4::{Block16, Lanes, Simd, SimdF32, SimdMask, dispatch, scalar};
 
 use super::shared_origin::{common, from_origin, seen_from};
 use super::{BoxKernel, Crossing};
+use crate::catalogue::{Shape, Way};
 use crate::geom::Aabb;
 use crate::packet::{Frame, OwnBoxes, Packet, Rays};
 use crate::tri::knobs::Reciprocal;
-use crate::tri::{Shape, Way};
 
 /// Boxes for every [`Shape`].
 #[derive(Clone, Debug)]
@@ -108,31 +108,18 @@ pub(super) fn cross<K: BoxKernel>(way: Way, boxes: &BoxSet, rays: &Rays, to: &mu
         Shape::One => rays_in_lanes::<K, scalar::f32x1>(simd4::Scalar::new(), boxes, rays, to),
         _ if !runs::<K>(way) => panic!("{} does not run at {}", K::NAME, way.level),
         Shape::Rays => dispatch!(way.level, s => native_rays::<K, _>(s, boxes, rays, to)),
-        Shape::Triangles => dispatch!(way.level, s => native_boxes::<K, _>(s, boxes, rays, to)),
+        Shape::Primitives => dispatch!(way.level, s => native_boxes::<K, _>(s, boxes, rays, to)),
     }
 }
 
 /// Whether a kernel is there for a level and a shape.
 pub(super) fn runs<K: BoxKernel>(way: Way) -> bool {
-    #[inline(always)]
-    fn fuses<S: Simd>(_: S) -> bool {
-        <S::f32s as SimdF32>::FUSED
-    }
-    match way.shape {
-        Shape::One => true,
-        Shape::Triangles if !boxes_in_lanes_differ::<K>() => false,
-        Shape::Rays | Shape::Triangles => !K::FUSED || dispatch!(way.level, s => fuses(s)),
-    }
+    (way.shape != Shape::Primitives || boxes_in_lanes_differ::<K>()) && (!K::FUSED || way.fuses())
 }
 
 /// Whether a kernel is one of its own for one ray and boxes in lanes.
 const fn boxes_in_lanes_differ<K: BoxKernel>() -> bool {
     !K::TOGETHER && !K::SHARED_ORIGIN
-}
-
-/// Whether a kernel fuses there by emulation.
-pub(super) fn emulates<K: BoxKernel>(way: Way) -> bool {
-    K::FUSED && way.shape == Shape::One
 }
 
 /// Whether there is code of a kernel for vectors of that type.

@@ -4,32 +4,14 @@ use std::any::TypeId;
 use std::marker::PhantomData;
 
 use super::knobs::{Division, Estimate, Fused, Kahan, Plain, Refined, Split};
-use super::sweep::{self, Triangles, Way};
+use super::sweep::{self, Triangles};
 use super::{MollerTrumbore, MollerTrumboreF64, Plucker, TriangleKernel, Wald, Watertight};
+use crate::catalogue::{Listed, Shape, Way};
 use crate::geom::Triangle;
 use crate::packet::{Hits, Rays};
 
 /// A [`TriangleKernel`] that is chosen at run time, batch by batch.
-pub trait TriangleTest: Send + Sync {
-    /// What the method is called.
-    fn name(&self) -> &'static str;
-
-    /// Its choices, in words.
-    fn variant(&self) -> String;
-
-    /// Whether it is the one that renders.
-    fn is_default(&self) -> bool;
-
-    /// Whether the bits of a hit are the same on every level and machine.
-    fn is_exact(&self) -> bool;
-
-    /// Whether it can be run that way: the `f64` one with one lane only, and one that
-    /// [fuses](TriangleKernel::FUSED) with one lane, by emulation, or at a level that does too.
-    fn runs(&self, way: Way) -> bool;
-
-    /// Whether it does so by emulation, so that its time means nothing.
-    fn is_emulated(&self, way: Way) -> bool;
-
+pub trait TriangleTest: Listed {
     /// What it keeps of triangles; they are numbered in their order.
     fn triangles(&self, triangles: &[Triangle]) -> Triangles;
 
@@ -37,13 +19,13 @@ pub trait TriangleTest: Send + Sync {
     /// made as long as `rays`.
     ///
     /// # Panics
-    /// If it cannot be [run](TriangleTest::runs) that way.
+    /// If it cannot be [run](Listed::runs) that way.
     fn closest(&self, way: Way, triangles: &Triangles, rays: &Rays, hits: &mut Hits);
 }
 
 struct Entry<K>(PhantomData<fn() -> K>);
 
-impl<K: TriangleKernel> TriangleTest for Entry<K> {
+impl<K: TriangleKernel> Listed for Entry<K> {
     fn name(&self) -> &'static str {
         K::NAME
     }
@@ -65,9 +47,11 @@ impl<K: TriangleKernel> TriangleTest for Entry<K> {
     }
 
     fn is_emulated(&self, way: Way) -> bool {
-        sweep::emulates::<K>(way)
+        K::FUSED && way.shape == Shape::One
     }
+}
 
+impl<K: TriangleKernel> TriangleTest for Entry<K> {
     fn triangles(&self, triangles: &[Triangle]) -> Triangles {
         Triangles::new::<K>(triangles)
     }
@@ -78,6 +62,7 @@ impl<K: TriangleKernel> TriangleTest for Entry<K> {
 }
 
 /// Every kernel with every choice, methods together.
+#[inline]
 pub fn catalogue() -> Vec<&'static dyn TriangleTest> {
     let mut all: Vec<&'static dyn TriangleTest> = Vec::new();
     macro_rules! with_each_reciprocal {

@@ -3,8 +3,8 @@
 //! A kernel is one text for three uses: rays in lanes against one [`Record`], one ray in all lanes
 //! against records in lanes ([`RecordBlock`]), and one against one, which is the same with one
 //! lane. Its choices of [arithmetic](knobs) are type parameters. [`catalogue`] lists every kernel
-//! with every choice, so that tests, benches and charts are a loop; what renders is
-//! [`Watertight`]'s default, or another [`Method`] that was asked for.
+//! with every choice; what renders is [`Watertight`]'s default, or another [`Method`] that was asked
+//! for.
 //!
 //! Rays that run in a triangle's plane, triangles without area and numbers that are not finite hit
 //! nothing, with any kernel, but for what the file of a kernel says.
@@ -28,7 +28,7 @@ pub use moller_trumbore::MollerTrumbore;
 pub use moller_trumbore_f64::MollerTrumboreF64;
 pub use plucker::Plucker;
 pub use record::{BlockLanes, Record, RecordBlock, Records};
-pub use sweep::{Shape, Triangles, Way};
+pub use sweep::Triangles;
 pub use wald::Wald;
 pub use watertight::Watertight;
 
@@ -47,6 +47,9 @@ pub trait TriangleKernel: Send + Sync + 'static {
     const FUSED: bool = false;
     /// Whether it looks at the [`Frame`]. If not, any frame will do.
     const FRAMED: bool = false;
+    /// Whether renderers have it for packets of any size. If not, for single rays and registers
+    /// alone: code is what takes time to compile.
+    const ANY_PACKET: bool = false;
     /// Whether it is for scalar use only.
     const SCALAR: bool = false;
     /// Whether its hits are held in the triangle's own box already

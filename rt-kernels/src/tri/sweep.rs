@@ -1,50 +1,11 @@
 //! Many rays against many triangles, one by one: the loop that tests, benches and charts share.
 
-use simd4::{Level, Simd, SimdF32, dispatch, scalar};
+use simd4::{Simd, SimdF32, dispatch, scalar};
 
 use super::{BlockLanes, Record, RecordBlock, TriangleKernel, intersect};
+use crate::catalogue::{Shape, Way};
 use crate::geom::Triangle;
 use crate::packet::{Closest, Frame, Hits, Packet, Rays};
-
-/// What goes in the lanes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Shape {
-    /// One ray against one triangle, in plain scalar code.
-    One,
-    /// As many rays as a register has lanes against one triangle.
-    Rays,
-    /// One ray against as many triangles as a register has lanes.
-    Triangles,
-}
-
-/// A level and a shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
-    /// The instructions to use. Of no account to [`Shape::One`].
-    pub level: Level,
-    /// What goes in the lanes.
-    pub shape: Shape,
-}
-
-impl Way {
-    /// Every way there is on this machine: scalar first, then both shapes at each level.
-    pub fn all() -> Vec<Way> {
-        let mut levels = Level::available().peekable();
-        let first = levels.peek().copied();
-        let one = first.map(|level| Way { level, shape: Shape::One });
-        let lanes = levels
-            .flat_map(|level| [Shape::Rays, Shape::Triangles].map(|shape| Way { level, shape }));
-        one.into_iter().chain(lanes).collect()
-    }
-
-    /// The number of lanes.
-    pub fn width(self) -> usize {
-        match self.shape {
-            Shape::One => 1,
-            Shape::Rays | Shape::Triangles => self.level.lanes(),
-        }
-    }
-}
 
 /// Triangles as one kernel keeps them, for every [`Shape`].
 #[derive(Clone, Debug)]
@@ -77,25 +38,15 @@ pub(super) fn closest<K: TriangleKernel>(
         }
         _ if !runs::<K>(way) => panic!("{} does not run at {}", K::NAME, way.level),
         Shape::Rays => dispatch!(way.level, s => native_rays::<K, _>(s, triangles, rays, hits)),
-        Shape::Triangles => {
+        Shape::Primitives => {
             dispatch!(way.level, s => native_triangles::<K, _>(s, triangles, rays, hits))
         }
     }
 }
 
-/// Whether a kernel is there for a level and a shape: one that fuses is not for registers of a level
-/// that does not.
+/// Whether a kernel is there for a level and a shape.
 pub(super) fn runs<K: TriangleKernel>(way: Way) -> bool {
-    #[inline(always)]
-    fn fuses<S: Simd>(_: S) -> bool {
-        <S::f32s as SimdF32>::FUSED
-    }
-    way.shape == Shape::One || !K::SCALAR && (!K::FUSED || dispatch!(way.level, s => fuses(s)))
-}
-
-/// Whether a kernel fuses there by emulation.
-pub(super) fn emulates<K: TriangleKernel>(way: Way) -> bool {
-    K::FUSED && way.shape == Shape::One
+    way.shape == Shape::One || !K::SCALAR && (!K::FUSED || way.fuses())
 }
 
 /// Whether there is code of a kernel for vectors of that type.

@@ -65,6 +65,7 @@ impl<C: Reciprocal, A: Rounding, const EXACT_ZEROS: bool, const OWN_BOX: bool> T
     const EXACT: bool = C::EXACT;
     const FUSED: bool = A::FUSED;
     const FRAMED: bool = true;
+    const ANY_PACKET: bool = true;
     const IN_OWN_BOX: bool = OWN_BOX;
 
     fn variant() -> String {

@@ -1,5 +1,7 @@
 //! The definition itself, against what others say: the standard library, and tables by hand.
 
+use std::cell::RefCell;
+
 use simd4::spec;
 
 use crate::numbers::same;
@@ -86,11 +88,18 @@ fn least_and_greatest_by_hand() {
 fn reductions_by_hand() {
     /// A fold written out: which lanes, in which order.
     fn written(n: usize) -> String {
-        let lanes: Vec<&'static str> = "0123456789abcdef".split_terminator("").skip(1).collect();
-        let joined = |a: &'static str, b: &'static str| -> &'static str {
-            Box::leak(format!("({a}{b})").into_boxed_str())
+        // What is folded must be `Copy`: numbers of texts.
+        let texts: Vec<String> = "0123456789abcdef".chars().map(String::from).collect();
+        let texts = RefCell::new(texts);
+        let joined = |a: usize, b: usize| {
+            let mut texts = texts.borrow_mut();
+            let text = format!("({}{})", texts[a], texts[b]);
+            texts.push(text);
+            texts.len() - 1
         };
-        spec::reduce(&lanes[..n], joined).to_string()
+        let lanes: Vec<usize> = (0..n).collect();
+        let whole = spec::reduce(&lanes, joined);
+        texts.borrow()[whole].clone()
     }
     assert_eq!(written(1), "0");
     assert_eq!(written(4), "((02)(13))");

@@ -149,9 +149,9 @@ pub(crate) fn estimates<V: SimdF32>(s: V::Simd, step: u32) {
     for (range, step) in [(one..=four, step), (least..=greatest, 997 * step)] {
         let cases = [
             ("rcp_est", error::<V>(s, range.clone(), step, V::rcp_est, |x| x), 11),
-            ("rcp_fast", error::<V>(s, range.clone(), step, V::rcp_fast, |x| x), 22),
+            ("rcp_fast", error::<V>(s, range.clone(), step, V::rcp_fast, |x| x), 21),
             ("rsqrt_est", error::<V>(s, range.clone(), step, V::rsqrt_est, f64::sqrt), 11),
-            ("rsqrt_fast", error::<V>(s, range.clone(), step, V::rsqrt_fast, f64::sqrt), 22),
+            ("rsqrt_fast", error::<V>(s, range.clone(), step, V::rsqrt_fast, f64::sqrt), 21),
         ];
         for (name, error, bound) in cases {
             assert!(
@@ -173,17 +173,20 @@ pub(crate) fn rails<V: SimdF32>(s: V::Simd) {
         {
             assert!(is(of(rcp, x), want), "{name}({x}) = {}", of(rcp, x));
         }
+        // Each sign by itself: an estimate need not be odd to the last bit.
+        let near = |x: f32, got: f32| (f64::from(got) * f64::from(x) - 1.0).abs() < 2f64.powi(-11);
         for x in [1, 0x1f_ffff, 0x20_0001, 0x7f_ffff].map(f32::from_bits) {
-            let got = of(rcp, x);
-            let near = (f64::from(got) * f64::from(x) - 1.0).abs() < 2f64.powi(-11);
-            assert!(got == inf || near, "{name}({x:e}) = {got:e}");
-            assert!(same(of(rcp, -x), -got), "{name}(-{x:e})");
+            for x in [x, -x] {
+                let got = of(rcp, x);
+                assert!(got == inf.copysign(x) || near(x, got), "{name}({x:e}) = {got:e}");
+            }
         }
         for x in [2f32.powi(126), 2f32.powi(126) * 1.01, 2f32.powi(127), f32::MAX] {
-            let got = of(rcp, x);
-            let near = (f64::from(got) * f64::from(x) - 1.0).abs() < 2f64.powi(-11);
-            assert!(same(got, 0.0) || near, "{name}({x:e}) = {got:e}");
-            assert!(same(of(rcp, -x), -got), "{name}(-{x:e})");
+            for x in [x, -x] {
+                let got = of(rcp, x);
+                let zero = same(got, 0f32.copysign(x));
+                assert!(zero || near(x, got), "{name}({x:e}) = {got:e}");
+            }
         }
     }
     for (name, rsqrt) in [("rsqrt_est", V::rsqrt_est as fn(V) -> V), ("rsqrt_fast", V::rsqrt_fast)]

@@ -8,9 +8,10 @@ use glam::{DVec3, Vec3};
 use rt_kernels::geom::Aabb;
 use rt_kernels::{Ray, Rays};
 
-use rt_kernels::reference::random::{Random, power};
-use crate::{BATCH, Place, Setting};
+use crate::place::Place;
+use crate::{BATCH, Facts, Kind, Setting};
 use rt_kernels::reference::aim;
+use rt_kernels::reference::random::{Random, power};
 
 /// Some rays, each of which is tested against one box.
 #[derive(Clone, Debug)]
@@ -21,44 +22,38 @@ pub struct Batch {
     pub rays: Rays,
 }
 
-/// A generator of hard inputs.
+/// A generator of rays and boxes.
 #[derive(Clone, Copy, Debug)]
-pub struct Family {
-    /// Its name.
-    pub name: &'static str,
-    /// The circumstance, in a sentence.
-    pub about: &'static str,
-    /// Whether entries are well conditioned, so that their errors tell about the kernel: no
-    /// reciprocal is infinite.
-    pub fair: bool,
-    /// The setting it is commonly used with.
-    pub setting: Setting,
+pub struct BoxFamily {
+    pub(super) facts: Facts,
     aabb: fn(&mut Random, &Place) -> Aabb,
     ray: fn(&mut Random, &Aabb) -> Ray,
 }
 
-/// Near the origin, of size 1.
-const UNIT: Setting = Setting { seed: 1, scale: 1.0, offset: 0.0 };
-
-impl Family {
-    /// All families of rays and boxes.
-    pub const ALL: [Family; 15] = [
-        Family {
-            name: "interior",
-            about: "rays from outside through the inside",
-            fair: true,
-            setting: UNIT,
+impl BoxFamily {
+    pub(super) const ALL: [BoxFamily; 15] = [
+        BoxFamily {
+            facts: Facts {
+                name: "interior",
+                about: "rays from outside through the inside",
+                kind: Kind::Natural,
+                fair: true,
+                setting: Setting::UNIT,
+            },
             aabb: solid,
             ray: |random, aabb| {
                 let target = inside(random, aabb);
                 at_any_pace(around(random, aabb, target, 1, 6), target, random)
             },
         },
-        Family {
-            name: "random",
-            about: "rays between any two points: what happens by nature",
-            fair: true,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "random",
+                about: "rays between any two points: what happens by nature",
+                kind: Kind::Natural,
+                fair: true,
+                setting: Setting::UNIT,
+            },
             aabb: solid,
             ray: |random, aabb| {
                 let center = (aabb.min() + aabb.max()) * 0.5;
@@ -67,30 +62,39 @@ impl Family {
                 at_any_pace(from, to, random)
             },
         },
-        Family {
-            name: "edge",
-            about: "rays aimed at points of an edge, past two sides of the box",
-            fair: true,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "edge",
+                about: "rays aimed at points of an edge, past two sides of the box",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting::UNIT,
+            },
             aabb: solid,
             ray: past_edge,
         },
-        Family {
-            name: "corner",
-            about: "rays aimed at a corner, where three sides meet",
-            fair: true,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "corner",
+                about: "rays aimed at a corner, where three sides meet",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting::UNIT,
+            },
             aabb: solid,
             ray: |random, aabb| {
                 let target = on(random, aabb, 3);
                 at_any_pace(around(random, aabb, target, -2, 8), target, random)
             },
         },
-        Family {
-            name: "band",
-            about: "rays that pass an edge at 1e-8 to 1e-2 of the box's size, inside and outside",
-            fair: true,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "band",
+                about: "rays that pass an edge at 1e-8 to 1e-2 of the box's size, inside and outside",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting::UNIT,
+            },
             aabb: solid,
             ray: |random, aabb| {
                 let size = aabb.extent().max_element();
@@ -99,43 +103,58 @@ impl Family {
                 at_any_pace(around(random, aabb, target, 0, 6), target, random)
             },
         },
-        Family {
-            name: "far",
-            about: "edges and corners of a box of size 1 that is 220,000 from the world's origin",
-            fair: true,
-            setting: Setting { offset: 2.2e5, ..UNIT },
+        BoxFamily {
+            facts: Facts {
+                name: "far",
+                about: "edges and corners of a box of size 1 that is 220,000 from the world's origin",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting { offset: 2.2e5, ..Setting::UNIT },
+            },
             aabb: solid,
             ray: past_edge,
         },
-        Family {
-            name: "very far",
-            about: "the same at a million, where coordinates are rounded to a sixteenth",
-            fair: true,
-            setting: Setting { offset: 1e6, ..UNIT },
+        BoxFamily {
+            facts: Facts {
+                name: "very far",
+                about: "the same at a million, where coordinates are rounded to a sixteenth",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting { offset: 1e6, ..Setting::UNIT },
+            },
             aabb: solid,
             ray: past_edge,
         },
-        Family {
-            name: "tiny",
-            about: "edges and corners of a box of size 1e-6",
-            fair: true,
-            setting: Setting { scale: 1e-6, ..UNIT },
+        BoxFamily {
+            facts: Facts {
+                name: "tiny",
+                about: "edges and corners of a box of size 1e-6",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting { scale: 1e-6, ..Setting::UNIT },
+            },
             aabb: solid,
             ray: past_edge,
         },
-        Family {
-            name: "immense",
-            about: "edges and corners of a box of size 2^38, near the end of the range",
-            fair: true,
-            setting: Setting { scale: (1u64 << 38) as f32, ..UNIT },
+        BoxFamily {
+            facts: Facts {
+                name: "immense",
+                about: "edges and corners of a box of size 2^38, near the end of the range",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting { scale: (1u64 << 38) as f32, ..Setting::UNIT },
+            },
             aabb: solid,
             ray: past_edge,
         },
-        Family {
-            name: "flat",
-            about: "boxes without extent on one axis or two, hit in their inside and at their edges",
-            fair: true,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "flat",
+                about: "boxes without extent on one axis or two, hit in their inside and at their edges",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting::UNIT,
+            },
             aabb: flat,
             ray: |random, aabb| {
                 let target = match random.below(3) {
@@ -145,11 +164,14 @@ impl Family {
                 at_any_pace(around(random, aabb, target, -1, 6), target, random)
             },
         },
-        Family {
-            name: "axis",
-            about: "rays along an axis, with zeros of both signs, in sides, along edges and beside them",
-            fair: true,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "axis",
+                about: "rays along an axis, with zeros of both signs, in sides, along edges and beside them",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting::UNIT,
+            },
             aabb: solid_or_flat,
             ray: |random, aabb| {
                 let sides = random.below(3);
@@ -170,11 +192,14 @@ impl Family {
                 ray
             },
         },
-        Family {
-            name: "on plane",
-            about: "origins in the plane of a side, where 0 · ∞ is NaN: directions along it, ±0 or subnormal",
-            fair: false,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "on plane",
+                about: "origins in the plane of a side, where 0 · ∞ is NaN: directions along it, ±0 or subnormal",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
             aabb: solid_or_flat,
             ray: |random, aabb| {
                 let sides = 1 + random.below(2);
@@ -194,11 +219,14 @@ impl Family {
                 ray
             },
         },
-        Family {
-            name: "slow",
-            about: "directions of which a component or two are 2^-149 to 2^-20: reciprocals that overflow",
-            fair: false,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "slow",
+                about: "directions of which a component or two are 2^-149 to 2^-20: reciprocals that overflow",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
             aabb: solid,
             ray: |random, aabb| {
                 let sides = random.below(3);
@@ -219,11 +247,14 @@ impl Family {
                 ray
             },
         },
-        Family {
-            name: "inside",
-            about: "rays that start inside, on a side, an edge or a corner, and stay or leave",
-            fair: true,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "inside",
+                about: "rays that start inside, on a side, an edge or a corner, and stay or leave",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting::UNIT,
+            },
             aabb: solid,
             ray: |random, aabb| {
                 let sides = random.below(4);
@@ -231,11 +262,14 @@ impl Family {
                 at_any_pace(from, from + random.direction() * aabb.extent().max_element(), random)
             },
         },
-        Family {
-            name: "ends",
-            about: "rays that end where they enter the box or start where they leave it",
-            fair: true,
-            setting: UNIT,
+        BoxFamily {
+            facts: Facts {
+                name: "ends",
+                about: "rays that end where they enter the box or start where they leave it",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting::UNIT,
+            },
             aabb: solid,
             ray: |random, aabb| {
                 let target = on(random, aabb, 1);
@@ -250,14 +284,9 @@ impl Family {
         },
     ];
 
-    /// The family of that name.
-    pub fn named(name: &str) -> Option<&'static Family> {
-        Family::ALL.iter().find(|family| family.name == name)
-    }
-
-    /// Batch number `i` of the family.
+    /// Batch number `i`.
     pub fn batch(&self, setting: &Setting, i: usize) -> Batch {
-        let mut random = Random::new(setting.seed ^ (i as u64).wrapping_mul(0xd134_2543_de82_ef95));
+        let mut random = setting.stream(i);
         let place = Place::new(setting, &mut random).upright();
         let aabb = (self.aabb)(&mut random, &place);
         Batch { rays: (0..BATCH).map(|_| (self.ray)(&mut random, &aabb)).collect(), aabb }

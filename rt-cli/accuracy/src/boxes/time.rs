@@ -7,10 +7,11 @@ use rt_kernels::geom::Aabb;
 use rt_kernels::slab::{BoxSet, Crossings};
 use rt_kernels::{Ray, Rays};
 
-use super::measure::Subject;
-use crate::Time;
 use rt_kernels::reference::random::Random;
+
+use super::Kernel;
 use crate::time::race;
+use crate::{Subject, Time};
 
 /// How many boxes and how many rays: what fits into the first level of a cache.
 const BOXES: usize = 64;
@@ -28,11 +29,11 @@ pub enum Likeness {
 /// Times every subject on the calling thread, once a round for each in turn: 64 rays and 64 boxes, of
 /// which a ray meets a few. Nanoseconds for one test of one ray against one box, the rays' share of
 /// the setup of packets included.
-pub fn time(subjects: &[Subject], likeness: Likeness, rounds: usize) -> Vec<Time> {
+pub fn time(subjects: &[Subject<Kernel>], likeness: Likeness, rounds: usize) -> Vec<Time> {
     let (boxes, rays) = workload(likeness);
     let mut crossings = Crossings::new();
     race(subjects.len(), rounds, RAYS * BOXES, |i| {
-        subjects[i].test.cross(subjects[i].way, &boxes, black_box(&rays), &mut crossings);
+        subjects[i].kernel.cross(subjects[i].way, &boxes, black_box(&rays), &mut crossings);
         black_box(&crossings);
     })
 }

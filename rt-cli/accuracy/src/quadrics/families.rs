@@ -4,9 +4,10 @@ use glam::{DVec3, Vec3};
 use rt_kernels::geom::{Curved, Quadric, Sphere};
 use rt_kernels::{Ray, Rays};
 
-use rt_kernels::reference::random::Random;
-use crate::{BATCH, Place, Setting};
+use crate::place::Place;
+use crate::{BATCH, Facts, Kind, Setting};
 use rt_kernels::reference::aim;
+use rt_kernels::reference::random::Random;
 
 /// Some rays, each of which is tested against one surface.
 #[derive(Clone, Debug)]
@@ -19,43 +20,35 @@ pub struct Batch {
 
 /// What the surfaces of a family are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum Surface {
     /// Spheres, for every test.
     Sphere,
     /// Others, for the tests that take any.
     Quadric,
 }
 
-/// A generator of hard inputs.
+/// A generator of rays and curved surfaces.
 #[derive(Clone, Copy, Debug)]
-pub struct Family {
-    /// Its name.
-    pub name: &'static str,
-    /// The circumstance, in a sentence.
-    pub about: &'static str,
+pub struct QuadricFamily {
+    pub(super) facts: Facts,
     /// What its surfaces are.
-    pub shape: Shape,
-    /// Whether `t` is well conditioned, so that its errors tell about the kernel: no ray grazes the
-    /// surface or starts next to it.
-    pub fair: bool,
-    /// The setting it is commonly used with.
-    pub setting: Setting,
+    pub shape: Surface,
     surface: fn(&mut Random, &Place) -> Curved,
     ray: fn(&mut Random, &Curved) -> Ray,
 }
 
-/// Near the origin, of size 1.
-const UNIT: Setting = Setting { seed: 1, scale: 1.0, offset: 0.0 };
+impl QuadricFamily {
+    pub(super) const ALL: [QuadricFamily; 13] = [
+        QuadricFamily {
+            facts: Facts {
+                name: "random",
+                about: "a sphere seen from 2 to 16 radii away, by rays that hit it and rays that do not",
+                kind: Kind::Natural,
+                fair: true,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Sphere,
 
-impl Family {
-    /// All families of rays and curved surfaces.
-    pub const ALL: [Family; 13] = [
-        Family {
-            name: "random",
-            about: "a sphere seen from 2 to 16 radii away, by rays that hit it and rays that do not",
-            shape: Shape::Sphere,
-            fair: true,
-            setting: UNIT,
             surface: sphere,
             ray: |random, surface| {
                 let (reach, off) =
@@ -63,60 +56,80 @@ impl Family {
                 at_sphere(random, surface, reach, off)
             },
         },
-        Family {
-            name: "distant",
-            about: "the same from 3 to 100,000 radii: the square of the radius against that of the distance",
-            shape: Shape::Sphere,
-            fair: true,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "distant",
+                about: "the same from 3 to 100,000 radii: the square of the radius against that of the distance",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Sphere,
+
             surface: sphere,
             ray: |random, surface| {
                 let (reach, off) = (distant(random), 0.9 * random.unit());
                 at_sphere(random, surface, reach, off)
             },
         },
-        Family {
-            name: "past",
-            about: "from 3 to 100,000 radii, by rays that pass at 1.1 to 4 radii",
-            shape: Shape::Sphere,
-            fair: false,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "past",
+                about: "from 3 to 100,000 radii, by rays that pass at 1.1 to 4 radii",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Sphere,
+
             surface: sphere,
             ray: |random, surface| {
                 let (reach, off) = (distant(random), 1.1 + 2.9 * random.unit());
                 at_sphere(random, surface, reach, off)
             },
         },
-        Family {
-            name: "grazing",
-            about: "rays that pass the rim at 2^-20 to a half of the radius, inside and outside, from 3 to 100,000 radii",
-            shape: Shape::Sphere,
-            fair: false,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "grazing",
+                about: "rays that pass the rim at 2^-20 to a half of the radius, inside and outside, from 3 to 100,000 radii",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Sphere,
+
             surface: sphere,
             ray: |random, surface| {
                 let (reach, off) = (distant(random), 1.0 + f64::from(random.magnitude(-20, -2)));
                 at_sphere(random, surface, reach, off)
             },
         },
-        Family {
-            name: "inside",
-            about: "rays from within a sphere: one root ahead, one behind",
-            shape: Shape::Sphere,
-            fair: true,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "inside",
+                about: "rays from within a sphere: one root ahead, one behind",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Sphere,
+
             surface: sphere,
             ray: |random, surface| {
                 let (reach, off) = (0.9 * random.unit(), 2.0 * random.unit());
                 at_sphere(random, surface, reach, off)
             },
         },
-        Family {
-            name: "near surface",
-            about: "rays that start 2^-18 to a sixteenth of the radius off the surface: a root that is next to nothing",
-            shape: Shape::Sphere,
-            fair: false,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "near surface",
+                about: "rays that start 2^-18 to a sixteenth of the radius off the surface: a root that is next to nothing",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Sphere,
+
             surface: sphere,
             ray: |random, surface| {
                 let (reach, off) =
@@ -124,24 +137,32 @@ impl Family {
                 at_sphere(random, surface, reach, off)
             },
         },
-        Family {
-            name: "far",
-            about: "a sphere of radius 1 at 220,000 from the world's origin, seen from nearby",
-            shape: Shape::Sphere,
-            fair: true,
-            setting: Setting { offset: 2.2e5, ..UNIT },
+        QuadricFamily {
+            facts: Facts {
+                name: "far",
+                about: "a sphere of radius 1 at 220,000 from the world's origin, seen from nearby",
+                kind: Kind::Single,
+                fair: true,
+                setting: Setting { offset: 2.2e5, ..Setting::UNIT },
+            },
+            shape: Surface::Sphere,
+
             surface: sphere,
             ray: |random, surface| {
                 let (reach, off) = (2.0 + 14.0 * random.unit(), 0.9 * random.unit());
                 at_sphere(random, surface, reach, off)
             },
         },
-        Family {
-            name: "ellipsoid",
-            about: "half axes of 1/32 to 1, seen from 2 to 1,000 of them",
-            shape: Shape::Quadric,
-            fair: false,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "ellipsoid",
+                about: "half axes of 1/32 to 1, seen from 2 to 1,000 of them",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Quadric,
+
             surface: ellipsoid,
             ray: |random, surface| {
                 let quadric = quadric(surface);
@@ -152,12 +173,16 @@ impl Family {
                 at_any_pace(target + random.direction() * away, target, random)
             },
         },
-        Family {
-            name: "cylinder",
-            about: "cylinders of any direction, hit from outside and from within",
-            shape: Shape::Quadric,
-            fair: false,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "cylinder",
+                about: "cylinders of any direction, hit from outside and from within",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Quadric,
+
             surface: cylinder,
             ray: |random, surface| {
                 let quadric = quadric(surface);
@@ -168,12 +193,16 @@ impl Family {
                 at_any_pace(target + random.direction() * away, target, random)
             },
         },
-        Family {
-            name: "along axis",
-            about: "rays along the axis of a cylinder, off it by 2^-30 to 1/2: a quadratic coefficient next to 0, or 0",
-            shape: Shape::Quadric,
-            fair: false,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "along axis",
+                about: "rays along the axis of a cylinder, off it by 2^-30 to 1/2: a quadratic coefficient next to 0, or 0",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Quadric,
+
             surface: cylinder,
             ray: |random, surface| {
                 let quadric = quadric(surface);
@@ -188,12 +217,16 @@ impl Family {
                 at_any_pace(from, from + dir * size, random)
             },
         },
-        Family {
-            name: "clipped",
-            about: "rays over the rim of a cylinder or cone: the first root is cut off, the second counts",
-            shape: Shape::Quadric,
-            fair: false,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "clipped",
+                about: "rays over the rim of a cylinder or cone: the first root is cut off, the second counts",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Quadric,
+
             surface: |random, place| {
                 if random.below(2) == 0 { cylinder(random, place) } else { cone(random, place) }
             },
@@ -213,12 +246,16 @@ impl Family {
                 )
             },
         },
-        Family {
-            name: "cone",
-            about: "cones of any direction, hit from outside and from within",
-            shape: Shape::Quadric,
-            fair: false,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "cone",
+                about: "cones of any direction, hit from outside and from within",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Quadric,
+
             surface: cone,
             ray: |random, surface| {
                 let quadric = quadric(surface);
@@ -229,12 +266,16 @@ impl Family {
                 at_any_pace(target + random.direction() * away, target, random)
             },
         },
-        Family {
-            name: "apex",
-            about: "rays aimed at the apex of a cone, where both roots are one, or past it by 2^-24 to 1/4",
-            shape: Shape::Quadric,
-            fair: false,
-            setting: UNIT,
+        QuadricFamily {
+            facts: Facts {
+                name: "apex",
+                about: "rays aimed at the apex of a cone, where both roots are one, or past it by 2^-24 to 1/4",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Quadric,
+
             surface: cone,
             ray: |random, surface| {
                 let quadric = quadric(surface);
@@ -250,14 +291,9 @@ impl Family {
         },
     ];
 
-    /// The family of that name.
-    pub fn named(name: &str) -> Option<&'static Family> {
-        Family::ALL.iter().find(|family| family.name == name)
-    }
-
-    /// Batch number `i` of the family.
+    /// Batch number `i`.
     pub fn batch(&self, setting: &Setting, i: usize) -> Batch {
-        let mut random = Random::new(setting.seed ^ (i as u64).wrapping_mul(0xd134_2543_de82_ef95));
+        let mut random = setting.stream(i);
         let place = Place::new(setting, &mut random).upright();
         let surface = (self.surface)(&mut random, &place);
         Batch { rays: (0..BATCH).map(|_| (self.ray)(&mut random, &surface)).collect(), surface }

@@ -6,10 +6,11 @@ use glam::Vec3;
 use rt_kernels::geom::{Curved, Sphere};
 use rt_kernels::{Hits, Ray, Rays};
 
-use super::measure::Subject;
-use crate::Time;
 use rt_kernels::reference::random::Random;
+
+use super::Kernel;
 use crate::time::race;
+use crate::{Subject, Time};
 
 /// How many spheres and how many rays: what fits into the first level of a cache.
 const SPHERES: usize = 64;
@@ -19,15 +20,15 @@ const RAYS: usize = 64;
 /// directions and 64 spheres, of which a ray meets a few. Nanoseconds for one test of one ray
 /// against one sphere, stated as the kernel states it; the rays' share of the setup of packets
 /// included.
-pub fn time(subjects: &[Subject], rounds: usize) -> Vec<Time> {
+pub(super) fn time(subjects: &[Subject<Kernel>], rounds: usize) -> Vec<Time> {
     let (spheres, rays) = workload();
     let surfaces: Vec<_> = subjects
         .iter()
-        .map(|subject| subject.test.surfaces(&spheres).expect("every kernel takes a sphere"))
+        .map(|subject| subject.kernel.surfaces(&spheres).expect("every kernel takes a sphere"))
         .collect();
     let mut hits = Hits::new();
     race(subjects.len(), rounds, RAYS * SPHERES, |i| {
-        subjects[i].test.closest(subjects[i].way, &surfaces[i], black_box(&rays), &mut hits);
+        subjects[i].kernel.closest(subjects[i].way, &surfaces[i], black_box(&rays), &mut hits);
         black_box(&hits);
     })
 }

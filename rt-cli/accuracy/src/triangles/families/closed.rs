@@ -8,109 +8,145 @@ use std::sync::OnceLock;
 
 use glam::{DVec3, Vec3};
 use rt_kernels::Ray;
+use rt_kernels::geom::Triangle;
 
-use super::{BATCH, Batch, Family, Kind, Place, Setting, UNIT};
+use super::{Batch, TriangleFamily};
+use crate::place::Place;
+use crate::{BATCH, Facts, Kind, Setting};
 use rt_kernels::reference::aim;
 use rt_kernels::reference::mesh::Mesh;
 use rt_kernels::reference::random::Random;
 
-pub(super) const EDGE: Family = Family {
-    name: "edge",
-    about: "rays aimed at points of an edge that two triangles share",
-    kind: Kind::Closed,
-    fair: true,
-    setting: UNIT,
+pub(super) const EDGE: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "edge",
+        about: "rays aimed at points of an edge that two triangles share",
+        kind: Kind::Closed,
+        fair: true,
+        setting: Setting::UNIT,
+    },
     make: |random, place| aimed(random, place, ROUND, Aim::Edge),
 };
 
-pub(super) const VERTEX: Family = Family {
-    name: "vertex",
-    about: "rays aimed at a vertex that five or six triangles share",
-    kind: Kind::Closed,
-    fair: true,
-    setting: UNIT,
+pub(super) const VERTEX: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "vertex",
+        about: "rays aimed at a vertex that five or six triangles share",
+        kind: Kind::Closed,
+        fair: true,
+        setting: Setting::UNIT,
+    },
     make: |random, place| aimed(random, place, ROUND, Aim::Vertex),
 };
 
-pub(super) const AXIS: Family = Family {
-    name: "axis",
-    about: "rays along an axis, exactly at a vertex or a point of an edge, with zeros of both signs",
-    kind: Kind::Closed,
-    fair: true,
-    setting: UNIT,
+pub(super) const AXIS: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "axis",
+        about: "rays along an axis, exactly at a vertex or a point of an edge, with zeros of both signs",
+        kind: Kind::Closed,
+        fair: true,
+        setting: Setting::UNIT,
+    },
     make: |random, place| aimed(random, place, ROUND, Aim::Axis),
 };
 
-pub(super) const FAR: Family = Family {
-    name: "far",
-    about: "edges and vertices of a mesh of size 2 that is 220,000 from the world's origin",
-    kind: Kind::Closed,
-    fair: true,
-    setting: Setting { offset: 2.2e5, ..UNIT },
+pub(super) const FAR: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "far",
+        about: "edges and vertices of a mesh of size 2 that is 220,000 from the world's origin",
+        kind: Kind::Closed,
+        fair: true,
+        setting: Setting { offset: 2.2e5, ..Setting::UNIT },
+    },
     make: |random, place| aimed(random, place, ROUND, Aim::Both),
 };
 
-pub(super) const VERY_FAR: Family = Family {
-    name: "very far",
-    about: "the same at a million, where coordinates are rounded to a sixteenth",
-    kind: Kind::Closed,
-    fair: true,
-    setting: Setting { offset: 1e6, ..UNIT },
+pub(super) const VERY_FAR: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "very far",
+        about: "the same at a million, where coordinates are rounded to a sixteenth",
+        kind: Kind::Closed,
+        fair: true,
+        setting: Setting { offset: 1e6, ..Setting::UNIT },
+    },
     make: |random, place| aimed(random, place, ROUND, Aim::Both),
 };
 
-pub(super) const TINY: Family = Family {
-    name: "tiny",
-    about: "edges and vertices of a mesh of size 2e-6, which any absolute epsilon loses",
-    kind: Kind::Closed,
-    fair: true,
-    setting: Setting { scale: 1e-6, ..UNIT },
+pub(super) const TINY: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "tiny",
+        about: "edges and vertices of a mesh of size 2e-6, which any absolute epsilon loses",
+        kind: Kind::Closed,
+        fair: true,
+        setting: Setting { scale: 1e-6, ..Setting::UNIT },
+    },
     make: |random, place| aimed(random, place, ROUND, Aim::Both),
 };
 
-pub(super) const HUGE: Family = Family {
-    name: "huge",
-    about: "edges and vertices of a mesh of size 2e6",
-    kind: Kind::Closed,
-    fair: true,
-    setting: Setting { scale: 1e6, ..UNIT },
+pub(super) const HUGE: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "huge",
+        about: "edges and vertices of a mesh of size 2e6",
+        kind: Kind::Closed,
+        fair: true,
+        setting: Setting { scale: 1e6, ..Setting::UNIT },
+    },
     make: |random, place| aimed(random, place, ROUND, Aim::Both),
 };
 
-pub(super) const PANCAKE: Family = Family {
-    name: "pancake",
-    about: "edges and vertices of a mesh a thousand times as wide as it is high",
-    kind: Kind::Closed,
-    fair: false,
-    setting: UNIT,
+pub(super) const PANCAKE: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "pancake",
+        about: "edges and vertices of a mesh a thousand times as wide as it is high",
+        kind: Kind::Closed,
+        fair: false,
+        setting: Setting::UNIT,
+    },
     make: |random, place| aimed(random, place, DVec3::new(1.0, 1.0, 1e-3), Aim::Both),
 };
 
-pub(super) const NEEDLE: Family = Family {
-    name: "needle",
-    about: "edges and vertices of a mesh a thousand times as long as it is wide",
-    kind: Kind::Closed,
-    fair: false,
-    setting: UNIT,
+pub(super) const NEEDLE: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "needle",
+        about: "edges and vertices of a mesh a thousand times as long as it is wide",
+        kind: Kind::Closed,
+        fair: false,
+        setting: Setting::UNIT,
+    },
     make: |random, place| aimed(random, place, DVec3::new(1.0, 1e-3, 1e-3), Aim::Both),
 };
 
-pub(super) const INTERIOR: Family = Family {
-    name: "interior",
-    about: "rays aimed at the insides of triangles: what t is worth",
-    kind: Kind::Natural,
-    fair: true,
-    setting: UNIT,
+pub(super) const INTERIOR: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "interior",
+        about: "rays aimed at the insides of triangles: what t is worth",
+        kind: Kind::Natural,
+        fair: true,
+        setting: Setting::UNIT,
+    },
     make: |random, place| aimed(random, place, ROUND, Aim::Inside),
 };
 
-pub(super) const RANDOM: Family = Family {
-    name: "random",
-    about: "rays in any direction inside a mesh of 80 triangles",
-    kind: Kind::Natural,
-    fair: true,
-    setting: UNIT,
+pub(super) const RANDOM: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "random",
+        about: "rays in any direction inside a mesh of 80 triangles",
+        kind: Kind::Natural,
+        fair: true,
+        setting: Setting::UNIT,
+    },
     make: random_directions,
+};
+
+pub(super) const CAMERA: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "camera",
+        about: "eight by eight neighbouring pixels of 512 by 512, seen from inside a mesh of 80 triangles",
+        kind: Kind::Natural,
+        fair: true,
+        setting: Setting::UNIT,
+    },
+    make: camera,
 };
 
 /// No axis is squeezed.
@@ -218,18 +254,33 @@ fn along_axis(center: Vec3, target: Vec3, negative_zeros: bool) -> Ray {
     Ray::new(origin, dir)
 }
 
-fn random_directions(random: &mut Random, place: &mut Place) -> Batch {
+/// All triangles of a coarser ball.
+fn small_ball(place: &mut Place) -> Vec<Triangle> {
     static BALL: OnceLock<Ball> = OnceLock::new();
     let ball = BALL.get_or_init(|| Ball::new(1));
     let vertices: Vec<Vec3> = ball.vertices.iter().map(|&v| place.point(v)).collect();
-    let triangles = ball.faces.iter().map(|face| {
-        let corners = face.map(|i| vertices[i as usize]);
-        place.triangle(corners)
-    });
-    let triangles = triangles.collect();
+    let triangle = |face: &[u32; 3]| place.triangle(face.map(|i| vertices[i as usize]));
+    ball.faces.iter().map(triangle).collect()
+}
+
+fn random_directions(random: &mut Random, place: &mut Place) -> Batch {
+    let triangles = small_ball(place);
     let rays = (0..BATCH).map(|_| {
         let ray = Ray::new(place.point(start(random)), random.direction());
         place.paced(ray)
+    });
+    Batch { rays: rays.collect(), triangles }
+}
+
+/// A square tile of a picture that is as wide as it is far away; the batch's rotation turns it.
+fn camera(random: &mut Random, place: &mut Place) -> Batch {
+    let triangles = small_ball(place);
+    let eye = start(random);
+    let tile = [(); 2].map(|()| 8 * random.below(64));
+    let rays = (0..BATCH).map(|i| {
+        let at = |first: usize, k: usize| ((first + k) as f64 + 0.5) / 512.0 - 0.5;
+        let pixel = DVec3::new(at(tile[0], i % 8), at(tile[1], i / 8), 1.0);
+        place.ray(place.point(eye), place.point(eye + pixel))
     });
     Batch { rays: rays.collect(), triangles }
 }

@@ -4,15 +4,19 @@ use glam::{DVec3, Vec3};
 use rt_kernels::Ray;
 use rt_kernels::geom::Triangle;
 
-use super::{BATCH, Batch, Family, Kind, Place, UNIT};
+use super::{Batch, TriangleFamily};
+use crate::place::Place;
+use crate::{BATCH, Facts, Kind, Setting};
 use rt_kernels::reference::random::Random;
 
-pub(super) const BAND: Family = Family {
-    name: "band",
-    about: "rays that pass an edge at 1e-8 to 1e-2 of the triangle's size, inside and outside",
-    kind: Kind::Single,
-    fair: false,
-    setting: UNIT,
+pub(super) const BAND: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "band",
+        about: "rays that pass an edge at 1e-8 to 1e-2 of the triangle's size, inside and outside",
+        kind: Kind::Single,
+        fair: false,
+        setting: Setting::UNIT,
+    },
     make: |random, place| {
         let [a, b, c] = fair(random);
         batch(random, place, [a, b, c], |random| {
@@ -24,12 +28,14 @@ pub(super) const BAND: Family = Family {
     },
 };
 
-pub(super) const EDGE_ON: Family = Family {
-    name: "edge-on",
-    about: "rays that nearly run in the triangle's plane, from 16 to 16,000 sizes away",
-    kind: Kind::Single,
-    fair: false,
-    setting: UNIT,
+pub(super) const EDGE_ON: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "edge-on",
+        about: "rays that nearly run in the triangle's plane, from 16 to 16,000 sizes away",
+        kind: Kind::Single,
+        fair: false,
+        setting: Setting::UNIT,
+    },
     make: |random, place| {
         let [a, b, c] = fair(random);
         let normal = (b - a).cross(c - a).normalize();
@@ -42,30 +48,36 @@ pub(super) const EDGE_ON: Family = Family {
     },
 };
 
-pub(super) const SPAWNED: Family = Family {
-    name: "spawned",
-    about: "rays that leave a point of the triangle, moved off by 64 roundoffs: none may meet it again",
-    kind: Kind::Single,
-    fair: false,
-    setting: UNIT,
+pub(super) const SPAWNED: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "spawned",
+        about: "rays that leave a point of the triangle, moved off by 64 roundoffs: none may meet it again",
+        kind: Kind::Single,
+        fair: false,
+        setting: Setting::UNIT,
+    },
     make: spawned,
 };
 
-pub(super) const DEGENERATE: Family = Family {
-    name: "degenerate",
-    about: "triangles without area, or without more of it than rounding gives, from everywhere",
-    kind: Kind::Broken,
-    fair: false,
-    setting: UNIT,
+pub(super) const DEGENERATE: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "degenerate",
+        about: "triangles without area, or without more of it than rounding gives, from everywhere",
+        kind: Kind::Broken,
+        fair: false,
+        setting: Setting::UNIT,
+    },
     make: degenerate,
 };
 
-pub(super) const NOT_FINITE: Family = Family {
-    name: "not finite",
-    about: "rays and corners with a NaN or an infinity in them, and rays that go nowhere",
-    kind: Kind::Broken,
-    fair: false,
-    setting: UNIT,
+pub(super) const NOT_FINITE: TriangleFamily = TriangleFamily {
+    facts: Facts {
+        name: "not finite",
+        about: "rays and corners with a NaN or an infinity in them, and rays that go nowhere",
+        kind: Kind::Broken,
+        fair: false,
+        setting: Setting::UNIT,
+    },
     make: not_finite,
 };
 

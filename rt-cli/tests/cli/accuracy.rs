@@ -1,0 +1,98 @@
+//! `rt accuracy`.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+
+use crate::support::{Scratch, keys, levels};
+
+const QUICK: [&str; 5] = ["accuracy", "--rays", "64", "--rounds", "1"];
+
+const KEYS: [&str; 25] = [
+    "suite",
+    "kernel",
+    "variant",
+    "default",
+    "exact",
+    "level",
+    "shape",
+    "width",
+    "family",
+    "kind",
+    "fair",
+    "seed",
+    "scale",
+    "offset",
+    "rays",
+    "leaks",
+    "double_hits",
+    "false_hits",
+    "false_misses",
+    "nan_hits",
+    "unsure",
+    "t_ulp",
+    "band",
+    "ns",
+    "ns_least",
+];
+
+#[test]
+fn every_kernel_is_shown_every_family_at_every_level() {
+    let scratch = Scratch::with_room();
+    let args = [&QUICK[..], &["--json", "a.json"]].concat();
+    let run = scratch.rt(&args).exits(0);
+    let table = run.text();
+    for method in ["moller-trumbore", "watertight", "unordered", "conservative", "residual"] {
+        assert!(table.contains(method), "{table}");
+    }
+    assert!(run.stderr.contains("triangle 1/"), "{}", run.stderr);
+
+    let json: Value = serde_json::from_slice(&scratch.bytes("a.json")).unwrap();
+    assert_eq!(keys(&json), ["command", "arch", "machine", "rows"]);
+    let rows = json["rows"].as_array().unwrap();
+    let text = |row: &Value, key: &str| row[key].as_str().unwrap().to_owned();
+    for row in rows {
+        assert_eq!(keys(row), KEYS);
+        assert_eq!(keys(&row["t_ulp"]), ["p50", "p99", "max"]);
+        assert_eq!(row["rays"], 64);
+        assert!(row["ns"].as_f64().unwrap() > 0.0, "{row}");
+    }
+    for suite in ["triangle", "box", "quadric"] {
+        let of = || rows.iter().filter(|row| row["suite"] == suite);
+        let mut levels: BTreeSet<_> = levels().into_iter().collect();
+        levels.insert("scalar".to_owned());
+        assert_eq!(of().map(|row| text(row, "level")).collect::<BTreeSet<_>>(), levels, "{suite}");
+        let default = || of().filter(|row| row["default"] == true);
+        let methods: BTreeSet<_> = default().map(|row| text(row, "kernel")).collect();
+        assert_eq!(methods.len(), 1, "{methods:?}");
+        assert!(default().all(|row| row["leaks"] == 0 && row["nan_hits"] == 0));
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_counts() {
+    let scratch = Scratch::with_room();
+    let counts = |seed: &str| {
+        let args = [&QUICK[..], &["-q", "--seed", seed, "--json", "-"]].concat();
+        let run = scratch.rt(&args).exits(0);
+        assert_eq!(run.stderr, "");
+        let mut json = run.json();
+        for row in json["rows"].as_array_mut().unwrap() {
+            row.as_object_mut().unwrap().retain(|key, _| !key.starts_with("ns"));
+        }
+        json["rows"].take()
+    };
+    let first = counts("7");
+    assert_eq!(counts("7"), first);
+    assert_ne!(counts("8"), first);
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let scratch = Scratch::with_room();
+    for args in [["--rays", "0"], ["--rays", "many"], ["--seed", "-1"]] {
+        scratch.rt(&[&["accuracy"], &args[..]].concat()).exits(2);
+    }
+    let run = scratch.rt(&["accuracy", "--quick", "--json", "room.obj"]).exits(1);
+    assert!(run.stderr.contains("give it the extension .json"), "{}", run.stderr);
+}
