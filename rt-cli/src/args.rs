@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{Args as Group, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
-use rt_render::{AccelKind, Exec, Integrator, Level, PacketSize};
+use rt_render::{AccelKind, Exec, Integrator, Level, Method, PacketSize};
 use rt_scene::Light;
 
 use crate::error::Error;
@@ -28,6 +28,7 @@ pub(crate) struct Args {
 }
 
 #[derive(Subcommand)]
+#[allow(clippy::large_enum_variant, reason = "there is one of it")]
 pub(crate) enum Command {
     Render(RenderArgs),
     Gen(GenArgs),
@@ -60,6 +61,8 @@ pub(crate) struct RenderArgs {
     pub(crate) picture: PictureArgs,
     #[command(flatten)]
     pub(crate) shading: ShadingArgs,
+    #[command(flatten)]
+    pub(crate) precision: PrecisionArgs,
     #[command(flatten)]
     pub(crate) machine: MachineArgs,
 
@@ -115,6 +118,30 @@ pub(crate) struct ShadingArgs {
     /// Let light through everything.
     #[arg(long)]
     pub(crate) no_shadows: bool,
+}
+
+/// How exact the picture is.
+#[derive(Group)]
+#[command(next_help_heading = "Precision")]
+pub(crate) struct PrecisionArgs {
+    /// The triangle test. Only the watertight one leaks nothing.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t, conflicts_with = "tolerance")]
+    kernel: KernelArg,
+    /// Take the cheapest triangle test that is off by less than this many pixels in this scene, as
+    /// far as can be foretold (rt info SCENE tells) [default: none, which is 0].
+    #[arg(long, value_name = "PX", value_parser = tolerance, allow_hyphen_values = true)]
+    pub(crate) tolerance: Option<f64>,
+}
+
+impl PrecisionArgs {
+    /// The triangle test, unless a tolerance chooses it.
+    pub(crate) fn method(&self) -> Method {
+        match self.kernel {
+            KernelArg::Watertight => Method::Watertight,
+            KernelArg::MollerTrumbore => Method::MollerTrumbore,
+            KernelArg::Wald => Method::Wald,
+        }
+    }
 }
 
 /// How the work is done. The picture does not depend on it.
@@ -230,6 +257,9 @@ pub(crate) struct BenchArgs {
     /// Width and height in pixels.
     #[arg(short, long, value_name = "WxH", value_parser = size, default_value = "512x512")]
     pub(crate) size: (u32, u32),
+    /// Compare the triangle tests of --kernel at the best level, instead of levels.
+    #[arg(long)]
+    pub(crate) kernels: bool,
     /// How often everything is timed.
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) rounds: u16,
@@ -265,6 +295,9 @@ pub(crate) struct MeasureArgs {
     /// Rays of each family [default: 1000000, or 8192 with --quick].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     rays: Option<u32>,
+    /// How often everything is timed [default: 21, or 5 with --quick].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    rounds: Option<u16>,
     /// Which random numbers to use.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
@@ -281,7 +314,7 @@ impl MeasureArgs {
 
     /// How often everything is timed.
     pub(crate) fn rounds(&self) -> usize {
-        if self.quick { 5 } else { 21 }
+        self.rounds.unwrap_or(if self.quick { 5 } else { 21 }).into()
     }
 }
 
@@ -296,7 +329,7 @@ impl MeasureArgs {
     rt chart --from triangles.json boxes.json -o accuracy.svg")]
 pub(crate) struct ChartArgs {
     /// The .json files to draw, together; nothing is measured then.
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["quick", "rays", "seed"])]
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["quick", "rays", "rounds", "seed"])]
     pub(crate) from: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) measure: MeasureArgs,
@@ -312,6 +345,17 @@ enum AccelArg {
     Bvh,
     /// Every ray against every primitive.
     Brute,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum KernelArg {
+    /// Of Woop, Benthin and Wald: exact at edges.
+    #[default]
+    Watertight,
+    /// Of Möller and Trumbore: leaks at edges.
+    MollerTrumbore,
+    /// Of Wald, precomputed: leaks at edges, more so far from the origin.
+    Wald,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]
@@ -408,6 +452,13 @@ fn light(text: &str) -> Result<Light, String> {
     }
 }
 
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(pixels) if pixels.is_finite() && pixels.is_sign_positive() => Ok(pixels),
+        _ => Err("expected a number of pixels, 0 or more".into()),
+    }
+}
+
 fn angle(text: &str) -> Result<f32, String> {
     match numbers(text)?[..] {
         [degrees] if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
@@ -447,6 +498,10 @@ mod tests {
         assert_eq!(light("1,2,3,4,5,6").unwrap().color, Vec3::new(4.0, 5.0, 6.0));
         assert!(light("1,2,3,4").is_err());
         assert!(color("0,-1,0").is_err() && color("0,0.5,9").is_ok());
+        assert_eq!((tolerance("0"), tolerance("0.5")), (Ok(0.0), Ok(0.5)));
+        for bad in ["", "-1", "-0.0", "nan", "inf", "1px", "1,5"] {
+            assert!(tolerance(bad).is_err(), "{bad}");
+        }
         assert!(angle("0").is_err() && angle("180").is_err() && angle("45").is_ok());
     }
 }

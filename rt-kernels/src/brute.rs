@@ -5,6 +5,7 @@ use simd4::SimdF32;
 use crate::packet::{Frame, Packet, Query};
 use crate::primitives::Store;
 use crate::trace::Traverse;
+use crate::tri::{Method, TriangleKernel};
 use crate::{BuildError, Primitives, Stats};
 
 /// No acceleration at all.
@@ -19,14 +20,22 @@ impl Brute {
     /// # Errors
     /// As [`Bvh::build`](crate::Bvh::build).
     pub fn build(primitives: &Primitives) -> Result<Brute, BuildError> {
+        Brute::build_with(primitives, Method::default())
+    }
+
+    /// Copies the primitives for a triangle test of that method.
+    ///
+    /// # Errors
+    /// As [`Bvh::build`](crate::Bvh::build).
+    pub fn build_with(primitives: &Primitives, method: Method) -> Result<Brute, BuildError> {
         primitives.check()?;
-        Ok(Brute { store: Store::in_order(primitives) })
+        Ok(Brute { store: Store::in_order(primitives, method) })
     }
 }
 
 impl Traverse for Brute {
     #[inline(always)]
-    fn traverse<V: SimdF32, F: Frame<V>, Q: Query<V>>(
+    fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
         &self,
         s: V::Simd,
         packet: &Packet<V>,
@@ -34,8 +43,13 @@ impl Traverse for Brute {
         query: &mut Q,
         stats: &mut Stats,
     ) {
-        self.store.intersect(s, self.store.triangle_slots(), packet, frame, query, stats);
-        self.store.intersect(s, self.store.sphere_slots(), packet, frame, query, stats);
+        let store = &self.store;
+        store.intersect::<K, V, F, Q>(s, store.triangle_slots(), packet, frame, query, stats);
+        store.intersect::<K, V, F, Q>(s, store.sphere_slots(), packet, frame, query, stats);
+    }
+
+    fn method(&self) -> Method {
+        self.store.method()
     }
 
     fn bytes(&self) -> usize {

@@ -32,6 +32,9 @@
 //!    the entry into the own box.
 //! 3. The closest hit is the least `(t, primitive)`; equal `t` go to the lowest primitive.
 //!
+//! That holds for every triangle test that an accelerator can be built for ([`tri::Method`]): each has
+//! one answer, its own. Only that of the default is also exact at edges.
+//!
 //! Every operation of the slab expression is monotone under rounding, so nested boxes have nested
 //! intervals, bit for bit. No node above the winner can then be entered later than the winner's
 //! `t`, and pruning on `entry > best` never loses it. Padding alone would not do: the `t` of an

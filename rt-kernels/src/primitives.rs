@@ -8,7 +8,7 @@ use simd4::SimdF32;
 use crate::geom::{Aabb, Sphere, Triangle};
 use crate::packet::{Frame, Packet, Query};
 use crate::quadric::sphere;
-use crate::tri::{self, Record, TriangleKernel, Watertight};
+use crate::tri::{self, Method, Record, TriangleKernel};
 use crate::{BuildError, Stats};
 
 /// The primitives of a scene. They are numbered in this order: triangles first, then spheres.
@@ -82,32 +82,45 @@ pub struct SphereRecord {
     pub prim: u32,
 }
 
-/// The triangle test that renders.
-type Kernel = Watertight;
-
 /// Primitives in the order of the leaves. A **slot** numbers them: triangles first, then spheres,
 /// so that a range of slots of one kind needs no tag.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Store {
+    /// The test that the triangles' records are made for.
+    method: Method,
     triangles: Vec<Record>,
+    /// The triangles' own boxes, unless the method's kernel has them from the records.
+    own_boxes: Vec<Aabb>,
     spheres: Vec<SphereRecord>,
 }
 
 impl Store {
     /// All primitives in their own order.
-    pub(crate) fn in_order(primitives: &Primitives) -> Store {
-        Store::reordered(primitives, 0..primitives.len() as u32)
+    pub(crate) fn in_order(primitives: &Primitives, method: Method) -> Store {
+        Store::reordered(primitives, method, 0..primitives.len() as u32)
     }
 
     /// The primitives of these numbers, each kind in the order given.
-    pub(crate) fn reordered(primitives: &Primitives, order: impl Iterator<Item = u32>) -> Store {
+    pub(crate) fn reordered(
+        primitives: &Primitives,
+        method: Method,
+        order: impl Iterator<Item = u32>,
+    ) -> Store {
+        let boxes = if method.in_own_box() { 0 } else { primitives.triangles.len() };
         let mut store = Store {
+            method,
             triangles: Vec::with_capacity(primitives.triangles.len()),
+            own_boxes: Vec::with_capacity(boxes),
             spheres: Vec::with_capacity(primitives.spheres.len()),
         };
         for prim in order {
             match primitives.triangles.get(prim as usize) {
-                Some(triangle) => store.triangles.push(Kernel::record(triangle, prim)),
+                Some(triangle) => {
+                    store.triangles.push(method.record(triangle, prim));
+                    if boxes > 0 {
+                        store.own_boxes.push(triangle.own_box());
+                    }
+                }
                 None => {
                     let sphere = primitives.spheres[prim as usize - primitives.triangles.len()];
                     store.spheres.push(SphereRecord { sphere, prim });
@@ -127,9 +140,15 @@ impl Store {
         self.triangles.len()..self.triangles.len() + self.spheres.len()
     }
 
-    /// Tests a packet against a range of slots of one kind.
+    /// The test that the triangles' records are made for.
+    pub(crate) fn method(&self) -> Method {
+        self.method
+    }
+
+    /// Tests a packet against a range of slots of one kind; `K` is the kernel of the
+    /// [method](Store::method).
     #[inline(always)]
-    pub(crate) fn intersect<V: SimdF32, F: Frame<V>, Q: Query<V>>(
+    pub(crate) fn intersect<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
         &self,
         s: V::Simd,
         slots: Range<usize>,
@@ -141,8 +160,15 @@ impl Store {
         let tests = (slots.len() * V::LANES) as u64;
         if slots.end <= self.triangles.len() {
             stats.triangle_tests += tests;
-            for triangle in &self.triangles[slots] {
-                tri::intersect::<Kernel, V, F, _, Q>(s, triangle, packet, frame, query);
+            if K::IN_OWN_BOX {
+                for triangle in &self.triangles[slots] {
+                    tri::intersect::<K, V, F, _, Q>(s, triangle, packet, frame, query);
+                }
+            } else {
+                let own_boxes = &self.own_boxes[slots.clone()];
+                for (triangle, own_box) in self.triangles[slots].iter().zip(own_boxes) {
+                    tri::intersect_in::<K, V, F, Q>(s, triangle, own_box, packet, frame, query);
+                }
             }
         } else {
             stats.sphere_tests += tests;
@@ -155,6 +181,6 @@ impl Store {
 
     /// The memory that the records take.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(&*self.triangles) + size_of_val(&*self.spheres)
+        size_of_val(&*self.triangles) + size_of_val(&*self.own_boxes) + size_of_val(&*self.spheres)
     }
 }

@@ -1,8 +1,11 @@
 //! From a batch of rays to its hits: the one place where a level and a packet size are chosen.
 
-use simd4::{Level, LevelError, Simd, SimdF32, dispatch, scalar};
+use std::marker::PhantomData;
+
+use simd4::{Lanes, Level, LevelError, Simd, SimdF32, dispatch, scalar};
 
 use crate::packet::{Any, Closest, Frame, Hits, Packet, Query, Rays};
+use crate::tri::{Method, TriangleKernel, with_kernel};
 use crate::{Brute, Bvh, Stats};
 
 /// How many rays a packet has. The hits are the same for all.
@@ -42,6 +45,17 @@ impl Exec {
         Exec { level, packet: PacketSize::Native }
     }
 
+    /// What it comes to with a triangle test: for some there are only single rays and registers.
+    #[must_use]
+    pub fn with(self, method: Method) -> Exec {
+        let packet = match self.packet {
+            PacketSize::Single => PacketSize::Single,
+            asked if with_kernel!(method, K => K::ANY_PACKET) => asked,
+            _ => PacketSize::Native,
+        };
+        Exec { packet, ..self }
+    }
+
     /// The number of rays in a packet.
     pub fn lanes(&self) -> usize {
         match self.packet {
@@ -69,8 +83,9 @@ pub trait Accelerator: Send + Sync {
 
 /// The traversal of one packet, which makes an [`Accelerator`].
 pub(crate) trait Traverse: Send + Sync {
-    /// Hands every primitive that the packet may hit to its kernel.
-    fn traverse<V: SimdF32, F: Frame<V>, Q: Query<V>>(
+    /// Hands every primitive that the packet may hit to its kernel, triangles to `K`: that of the
+    /// [method](Traverse::method).
+    fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
         &self,
         s: V::Simd,
         packet: &Packet<V>,
@@ -78,6 +93,9 @@ pub(crate) trait Traverse: Send + Sync {
         query: &mut Q,
         stats: &mut Stats,
     );
+
+    /// The triangle test that it was built for.
+    fn method(&self) -> Method;
 
     /// See [`Accelerator::bytes`].
     fn bytes(&self) -> usize;
@@ -89,13 +107,19 @@ macro_rules! accelerator {
         impl Accelerator for $Type {
             fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats) {
                 hits.resize(rays.len());
-                run(exec, rays, &mut ClosestOf(self, hits), stats);
+                let method = Traverse::method(self);
+                with_kernel!(method, K => {
+                    run(exec.with(method), rays, &mut ClosestOf::<_, K>(self, hits, PhantomData), stats);
+                });
             }
 
             fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats) {
                 found.clear();
                 found.resize(rays.len(), false);
-                run(exec, rays, &mut AnyOf(self, found), stats);
+                let method = Traverse::method(self);
+                with_kernel!(method, K => {
+                    run(exec.with(method), rays, &mut AnyOf::<_, K>(self, found, PhantomData), stats);
+                });
             }
 
             fn bytes(&self) -> usize {
@@ -110,6 +134,9 @@ accelerator!(Bvh);
 
 /// What is done with each packet of a batch.
 trait Batch {
+    /// See [`TriangleKernel::ANY_PACKET`].
+    const ANY_PACKET: bool;
+
     fn packet<V: SimdF32>(
         &mut self,
         s: V::Simd,
@@ -119,9 +146,11 @@ trait Batch {
     );
 }
 
-struct ClosestOf<'a, T>(&'a T, &'a mut Hits);
+struct ClosestOf<'a, T, K>(&'a T, &'a mut Hits, PhantomData<K>);
 
-impl<T: Traverse> Batch for ClosestOf<'_, T> {
+impl<T: Traverse, K: TriangleKernel> Batch for ClosestOf<'_, T, K> {
+    const ANY_PACKET: bool = K::ANY_PACKET;
+
     #[inline(always)]
     fn packet<V: SimdF32>(
         &mut self,
@@ -131,14 +160,16 @@ impl<T: Traverse> Batch for ClosestOf<'_, T> {
         stats: &mut Stats,
     ) {
         let mut query = Closest::new(s, packet);
-        in_frame(self.0, s, packet, &mut query, stats);
+        in_frame::<K, V, T, _>(self.0, s, packet, &mut query, stats);
         query.store(self.1, first);
     }
 }
 
-struct AnyOf<'a, T>(&'a T, &'a mut [bool]);
+struct AnyOf<'a, T, K>(&'a T, &'a mut [bool], PhantomData<K>);
 
-impl<T: Traverse> Batch for AnyOf<'_, T> {
+impl<T: Traverse, K: TriangleKernel> Batch for AnyOf<'_, T, K> {
+    const ANY_PACKET: bool = K::ANY_PACKET;
+
     #[inline(always)]
     fn packet<V: SimdF32>(
         &mut self,
@@ -148,13 +179,13 @@ impl<T: Traverse> Batch for AnyOf<'_, T> {
         stats: &mut Stats,
     ) {
         let mut query = Any::new(s, packet);
-        in_frame(self.0, s, packet, &mut query, stats);
+        in_frame::<K, V, T, _>(self.0, s, packet, &mut query, stats);
         query.store(self.1, first);
     }
 }
 
 #[inline(always)]
-fn in_frame<V: SimdF32, T: Traverse, Q: Query<V>>(
+fn in_frame<K: TriangleKernel, V: SimdF32, T: Traverse, Q: Query<V>>(
     traverse: &T,
     s: V::Simd,
     packet: &Packet<V>,
@@ -162,34 +193,49 @@ fn in_frame<V: SimdF32, T: Traverse, Q: Query<V>>(
     stats: &mut Stats,
 ) {
     match packet.frame(s) {
-        Ok(frame) => traverse.traverse(s, packet, &frame, query, stats),
-        Err(frame) => traverse.traverse(s, packet, &frame, query, stats),
+        Ok(frame) => traverse.traverse::<K, V, _, Q>(s, packet, &frame, query, stats),
+        Err(frame) => traverse.traverse::<K, V, _, Q>(s, packet, &frame, query, stats),
     }
 }
 
 /// Cuts a batch into packets, once the level and the packet size are known.
-fn run(exec: Exec, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
+fn run<B: Batch>(exec: Exec, rays: &Rays, batch: &mut B, stats: &mut Stats) {
     match exec.packet {
-        PacketSize::Native => dispatch!(exec.level, s => native(s, rays, batch, stats)),
         PacketSize::Single => packets::<scalar::f32x1>(simd4::Scalar::new(), rays, batch, stats),
-        PacketSize::Four => dispatch!(exec.level, s => four(s, rays, batch, stats)),
-        PacketSize::Eight => dispatch!(exec.level, s => eight(s, rays, batch, stats)),
+        _ => match exec.lanes() {
+            4 => dispatch!(exec.level, s => four(s, rays, batch, stats)),
+            8 => dispatch!(exec.level, s => eight(s, rays, batch, stats)),
+            _ => dispatch!(exec.level, s => native(s, rays, batch, stats)),
+        },
+    }
+}
+
+// There is code only for what can come, and for no type twice.
+
+#[inline(always)]
+fn native<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
+    if const { lanes::<S>() != 4 && lanes::<S>() != 8 } {
+        packets::<S::f32s>(s, rays, batch, stats);
     }
 }
 
 #[inline(always)]
-fn native<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
-    packets::<S::f32s>(s, rays, batch, stats);
+fn four<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) {
+    if const { B::ANY_PACKET || lanes::<S>() == 4 } {
+        packets::<S::f32x4>(s, rays, batch, stats);
+    }
 }
 
 #[inline(always)]
-fn four<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
-    packets::<S::f32x4>(s, rays, batch, stats);
+fn eight<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) {
+    if const { B::ANY_PACKET || lanes::<S>() == 8 } {
+        packets::<S::f32x8>(s, rays, batch, stats);
+    }
 }
 
-#[inline(always)]
-fn eight<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
-    packets::<S::f32x8>(s, rays, batch, stats);
+/// How many lanes a register has.
+const fn lanes<S: Simd>() -> usize {
+    <S::f32s as Lanes>::LANES
 }
 
 #[inline(always)]

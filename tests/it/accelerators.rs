@@ -3,6 +3,7 @@
 use glam::Vec3;
 use proptest::prelude::*;
 use rt_kernels::geom::Triangle;
+use rt_kernels::tri::Method;
 use rt_kernels::{Accelerator, Brute, Bvh, Exec, Hits, PacketSize, Primitives, Ray, Rays};
 use rt_kernels::{Sequential, Stats};
 use rt_tests::mesh::Mesh;
@@ -19,15 +20,29 @@ fn plainest() -> Exec {
     Exec { level, packet: PacketSize::Single }
 }
 
-/// Checks closest and any of both accelerators, all ways, against the plainest, and returns that.
+/// Checks closest and any of both accelerators, all ways and with every triangle test, against the
+/// plainest, and returns that with the default test.
 fn one_answer(scene: &Primitives, rays: &Rays) -> Vec<Option<rt_kernels::Hit>> {
-    let brute = Brute::build(scene).expect("a scene in range");
-    let bvh = Bvh::build(scene, &Sequential).expect("a scene in range");
+    let mut methods = Method::ALL.into_iter();
+    let default = methods.next().expect("there is a default");
+    let hits = one_answer_with(default, scene, rays);
+    methods.for_each(|method| drop(one_answer_with(method, scene, rays)));
+    hits
+}
+
+fn one_answer_with(
+    method: Method,
+    scene: &Primitives,
+    rays: &Rays,
+) -> Vec<Option<rt_kernels::Hit>> {
+    let brute = Brute::build_with(scene, method).expect("a scene in range");
+    let bvh = Bvh::build_with(scene, method, &Sequential).expect("a scene in range");
     let hits = closest(&brute, plainest(), rays);
     let want: Vec<Bits> = hits.iter().map(|hit| hit.map(bits)).collect();
+    let name = method.name();
     for exec in ways() {
-        same(&want, "brute force", &brute, exec, rays);
-        same(&want, "the hierarchy", &bvh, exec, rays);
+        same(&want, &format!("{name}, brute force"), &brute, exec, rays);
+        same(&want, &format!("{name}, the hierarchy"), &bvh, exec, rays);
     }
     hits
 }

@@ -4,6 +4,7 @@ mod accelerators;
 mod build;
 mod padding;
 mod pictures;
+mod precision;
 mod range;
 mod sphere;
 mod triangle;

@@ -11,6 +11,7 @@ mod fit;
 mod integrate;
 mod job;
 pub mod measure;
+pub mod precision;
 mod shade;
 mod world;
 
@@ -19,6 +20,8 @@ pub use film::Film;
 pub use fit::fitted_view;
 pub use integrate::{Integrator, RayKind};
 pub use job::{Job, RenderError, check_size};
+pub use rt_kernels::geom::Aabb;
+pub use rt_kernels::tri::Method;
 pub use rt_kernels::{Exec, PacketSize};
 pub use simd4::{Level, LevelError};
-pub use world::{AccelKind, World};
+pub use world::{AccelKind, World, bounds};

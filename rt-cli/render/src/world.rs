@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use glam::Vec3;
 use rt_kernels::geom::{Aabb, Sphere, Triangle};
+use rt_kernels::tri::Method;
 use rt_kernels::{Accelerator, Brute, BuildError, Bvh, Primitives};
 use rt_scene::Scene;
 
@@ -46,6 +47,7 @@ pub struct World {
     /// The power of two that brings the coordinates into the range of the kernels.
     pub(crate) scale: f32,
     kind: AccelKind,
+    method: Method,
     bounds: Aabb,
     build_time: Duration,
 }
@@ -55,7 +57,21 @@ impl World {
     ///
     /// # Errors
     /// If the scene is empty, or the kernels refuse it.
-    pub fn build(mut scene: Scene, kind: AccelKind, threads: usize) -> Result<World, RenderError> {
+    pub fn build(scene: Scene, kind: AccelKind, threads: usize) -> Result<World, RenderError> {
+        World::build_with(scene, kind, Method::default(), threads)
+    }
+
+    /// Builds the acceleration structure for that triangle test, on that many threads. Only for
+    /// the default is the picture what the scene says to the last edge.
+    ///
+    /// # Errors
+    /// As [`build`](World::build).
+    pub fn build_with(
+        mut scene: Scene,
+        kind: AccelKind,
+        method: Method,
+        threads: usize,
+    ) -> Result<World, RenderError> {
         if scene.mesh.triangles.is_empty() && scene.spheres.is_empty() {
             return Err(RenderError::Empty(scene.name));
         }
@@ -73,16 +89,21 @@ impl World {
         let primitives = primitives(&scene);
         let accel = on_threads(threads, || -> Result<Box<dyn Accelerator>, BuildError> {
             Ok(match kind {
-                AccelKind::Bvh => Box::new(Bvh::build(&primitives, &RayonJoin)?),
-                AccelKind::Brute => Box::new(Brute::build(&primitives)?),
+                AccelKind::Bvh => Box::new(Bvh::build_with(&primitives, method, &RayonJoin)?),
+                AccelKind::Brute => Box::new(Brute::build_with(&primitives, method)?),
             })
         })??;
-        Ok(World { scene, accel, scale, kind, bounds, build_time: start.elapsed() })
+        Ok(World { scene, accel, scale, kind, method, bounds, build_time: start.elapsed() })
     }
 
     /// What finds the hits.
     pub fn accel_kind(&self) -> AccelKind {
         self.kind
+    }
+
+    /// The triangle test.
+    pub fn method(&self) -> Method {
+        self.method
     }
 
     /// The box around all primitives, in the units of the scene.
@@ -123,25 +144,27 @@ impl World {
 
     /// The corners of a triangle.
     pub(crate) fn corners(&self, triangle: &rt_scene::Triangle) -> [Vec3; 3] {
-        triangle.position.map(|i| self.scene.mesh.positions[i as usize])
+        corners(&self.scene, triangle)
     }
 }
 
+/// The corners of a triangle.
+pub(crate) fn corners(scene: &Scene, triangle: &rt_scene::Triangle) -> [Vec3; 3] {
+    triangle.position.map(|i| scene.mesh.positions[i as usize])
+}
+
 fn primitives(scene: &Scene) -> Primitives {
-    let mesh = &scene.mesh;
-    let corners = |triangle: &rt_scene::Triangle| Triangle {
-        corners: triangle.position.map(|i| mesh.positions[i as usize]),
-    };
+    let flat = |triangle| Triangle { corners: corners(scene, triangle) };
     let sphere =
         |sphere: &rt_scene::Sphere| Sphere { center: sphere.center, radius: sphere.radius };
     Primitives {
-        triangles: mesh.triangles.iter().map(corners).collect(),
+        triangles: scene.mesh.triangles.iter().map(flat).collect(),
         spheres: scene.spheres.iter().map(sphere).collect(),
     }
 }
 
-/// The box around all that can be seen.
-fn bounds(scene: &Scene) -> Aabb {
+/// The box around all that can be seen: that of nothing if there is nothing.
+pub fn bounds(scene: &Scene) -> Aabb {
     let mesh = &scene.mesh;
     let corners = mesh.triangles.iter().flat_map(|triangle| triangle.position);
     let points = corners.map(|i| mesh.positions[i as usize]);

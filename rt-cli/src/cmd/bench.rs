@@ -4,13 +4,13 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use glam::Vec3;
-use rt_render::measure::{self, Row};
-use rt_render::{AccelKind, Exec, Integrator, Job, Level, PacketSize, World};
+use rt_render::measure::{self, Row, Way};
+use rt_render::{AccelKind, Exec, Integrator, Job, Level, Method, PacketSize, World};
 use rt_scene::View;
 use serde_json::{Value, json};
 
 use super::render::default_view;
-use crate::args::BenchArgs;
+use crate::args::{BenchArgs, best_level};
 use crate::error::Error;
 use crate::output;
 
@@ -19,30 +19,40 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Error> {
     let json = args.json.as_deref().map(output::open_json).transpose()?;
     let table = args.json.as_deref() != Some(Path::new("-"));
     let show = |text: &str| if table { output::to_stdout(text.as_bytes()) } else { Ok(()) };
-    let mut ways = vec![Exec { level: scalar(), packet: PacketSize::Single }];
-    ways.extend(Level::available().map(Exec::at));
+    let execs = match args.kernels {
+        true => vec![Exec::at(best_level()?)],
+        false => {
+            let one = Exec { level: scalar(), packet: PacketSize::Single };
+            [one].into_iter().chain(Level::available().map(Exec::at)).collect()
+        }
+    };
+    let methods = if args.kernels { &Method::ALL[..] } else { &Method::ALL[..1] };
 
     let width = args.scenes.iter().map(|name| name_width(name)).max().unwrap_or(0);
-    show(&format!(
-        "{:<width$} {:<7}{:>7}{:>9}{:>8}{:>10}{:>11}{:>11}\n",
-        "scene", "level", "packet", "Mray/s", "× one", "× scalar", "nodes/ray", "tests/ray"
-    ))?;
+    show(&format!("{:<width$} {}\n", "scene", head(args.kernels)))?;
     let mut rows = Vec::new();
     for name in &args.scenes {
         let mut scene = rt_scene::open(name)?;
         let view = scene.view.take();
         let scene_name = scene.name.clone();
-        let world = World::build(scene, AccelKind::Bvh, 1)?;
-        let view = view.unwrap_or_else(|| default_view(&world, args.size));
-        let job = job(view, args.size, ways[0]);
-        let measured = measure::primary(&world, &job, &ways, args.rounds.into())?;
-        for row in &measured {
-            if row.differing > 0 {
+        let worlds = methods
+            .iter()
+            .map(|&method| World::build_with(scene.clone(), AccelKind::Bvh, method, 1))
+            .collect::<Result<Vec<_>, _>>()?;
+        let view = view.unwrap_or_else(|| default_view(worlds[0].bounds(), args.size));
+        let job = job(view, args.size, execs[0]);
+        let ways: Vec<_> = worlds
+            .iter()
+            .flat_map(|world| execs.iter().map(move |&exec| Way { world, exec }))
+            .collect();
+        let measured = measure::primary(&job, &ways, args.rounds.into())?;
+        for (row, way) in measured.iter().zip(&ways) {
+            if row.differing > 0 && row.method == measured[0].method {
                 let way = format!("{} × {}", row.exec.level, row.exec.lanes());
                 return Err(Error::Differ { scene: scene_name, differing: row.differing, way });
             }
-            show(&format!("{scene_name:<width$} {}\n", line(row, &measured)))?;
-            rows.push(row_json(&scene_name, &world, row));
+            show(&format!("{scene_name:<width$} {}\n", line(row, &measured, args.kernels)))?;
+            rows.push(row_json(&scene_name, way.world, row));
         }
     }
     match json {
@@ -82,10 +92,35 @@ fn mrays_per_s(row: &Row) -> f64 {
     row.rays as f64 / row.time.as_secs_f64() / 1e6
 }
 
-/// A row of the table; `measured` begins with one ray at a time and the scalar level.
-fn line(row: &Row, measured: &[Row]) -> String {
+/// The columns' names.
+fn head(kernels: bool) -> String {
+    match kernels {
+        true => format!(
+            "{:<16}{:>9}{:>14}{:>14}{:>11}",
+            "kernel", "Mray/s", "× watertight", "other hits/M", "tests/ray"
+        ),
+        false => format!(
+            "{:<7}{:>7}{:>9}{:>8}{:>10}{:>11}{:>11}",
+            "level", "packet", "Mray/s", "× one", "× scalar", "nodes/ray", "tests/ray"
+        ),
+    }
+}
+
+/// A row of the table; `measured` begins with one ray at a time and the scalar level, or with the
+/// watertight kernel.
+fn line(row: &Row, measured: &[Row], kernels: bool) -> String {
     let times = |other: &Row| other.time.as_secs_f64() / row.time.as_secs_f64();
     let per_ray = |count: u64| count as f64 / row.rays as f64;
+    if kernels {
+        return format!(
+            "{:<16}{:>9.2}{:>14.3}{:>14.1}{:>11.1}",
+            row.method.name(),
+            mrays_per_s(row),
+            times(&measured[0]),
+            per_ray(row.differing) * 1e6,
+            per_ray(row.stats.triangle_tests + row.stats.sphere_tests),
+        );
+    }
     format!(
         "{:<7}{:>7}{:>9.2}{:>8.2}{:>10.2}{:>11.1}{:>11.1}",
         row.exec.level,
@@ -105,7 +140,7 @@ fn row_json(scene: &str, world: &World, row: &Row) -> Value {
         "scene": scene,
         "kind": "primary",
         "level": row.exec.level.name(),
-        "kernel": "watertight",
+        "kernel": row.method.name(),
         "accel": world.accel_kind().name(),
         "layout": world.accel_kind().layout(),
         "packet": row.exec.lanes().to_string(),

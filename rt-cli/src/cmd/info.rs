@@ -4,9 +4,11 @@ use std::fmt::Write as _;
 
 use glam::Vec3;
 use rt_render::Level;
+use rt_render::precision::{self, Facts, Prediction};
 use rt_scene::Scene;
 use serde_json::{Value, json};
 
+use super::render::{SIZE, default_view};
 use crate::args::{InfoArgs, best_level};
 use crate::error::Error;
 use crate::{output, report};
@@ -16,7 +18,14 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Error> {
     let text = match &args.scene {
         Some(name) => {
             let scene = rt_scene::open(name)?;
-            if args.json { output::json(&scene_json(&scene)) } else { scene_text(&scene) }
+            let (facts, predictions) = (Facts::of(&scene), predictions(&scene));
+            if args.json {
+                let mut json = scene_json(&scene);
+                json["precision"] = report::facts_json(&facts, &predictions);
+                output::json(&json)
+            } else {
+                scene_text(&scene, &report::facts_lines(&facts, &predictions))
+            }
         }
         None => {
             let machine = machine_json()?;
@@ -66,7 +75,14 @@ fn scene_json(scene: &Scene) -> Value {
     })
 }
 
-fn scene_text(scene: &Scene) -> String {
+/// What each triangle test gets wrong, for the scene's camera or the one that `rt render` fits.
+fn predictions(scene: &Scene) -> Vec<Prediction> {
+    let size = scene.view.and_then(|view| view.size).unwrap_or(SIZE);
+    let fitted = || default_view(&rt_render::bounds(scene), size);
+    precision::predict(scene, &scene.view.unwrap_or_else(fitted), size).to_vec()
+}
+
+fn scene_text(scene: &Scene, more: &[(&str, String)]) -> String {
     let mut text = format!("{}\n", scene.name);
     let mut line = |what: &str, value: String| {
         let _ = writeln!(text, "  {what:<12}{value}");
@@ -87,6 +103,9 @@ fn scene_text(scene: &Scene) -> String {
         if let Some((width, height)) = view.size {
             line("size", format!("{width}x{height}"));
         }
+    }
+    for (what, value) in more {
+        line(what, value.clone());
     }
     for skipped in &scene.facts.skipped {
         line("skipped", format!("{} × {}: {}", skipped.count, skipped.what, skipped.why));

@@ -1,17 +1,20 @@
 //! `rt render`.
 
 use glam::Vec3;
-use rt_render::{Job, World, check_size, fitted_view};
+use rt_render::{Aabb, Job, World, check_size, fitted_view, precision};
 use rt_scene::View;
 
 use crate::args::{PictureArgs, RenderArgs};
 use crate::error::Error;
 use crate::output::{self, Output};
-use crate::report::{self, Rendered};
+use crate::report::{self, Kernel, Rendered};
 use crate::ui;
 
 /// The angle of view of a fitted camera, in degrees.
 const FOV: f32 = 40.0;
+
+/// The size of a picture of a scene that states none.
+pub(crate) const SIZE: (u32, u32) = (512, 512);
 
 /// The linear colour behind scenes that state none.
 const BACKGROUND: Vec3 = Vec3::new(0.05, 0.05, 0.06);
@@ -39,10 +42,14 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
     let (own_view, own_lights, own_background) = own;
     let name = scene.name.clone();
     let stated = report::stated(&scene);
-    let world = World::build(scene, args.machine.accel(), threads)?;
-
     let size = picture_size(&args.picture, own_view.as_ref());
-    let view = view(&args.picture, own_view, &world, size);
+    let view = view(&args.picture, own_view, &rt_render::bounds(&scene), size);
+    let kernel = match args.precision.tolerance {
+        Some(pixels) => Kernel::Chosen(precision::choose(&scene, &view, size, pixels), pixels),
+        None => Kernel::Asked(args.precision.method()),
+    };
+    let world = World::build_with(scene, args.machine.accel(), kernel.method(), threads)?;
+
     if own_view.is_none() && !args.quiet {
         ui::say(&format!("camera: {}", report::flags(&view)));
     }
@@ -54,7 +61,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
         integrator: args.shading.integrator.into(),
         depth: args.shading.depth,
         shadows: !args.shading.no_shadows,
-        exec,
+        exec: exec.with(kernel.method()),
         threads,
     };
     let progress = ui::Progress::new(args.progress, args.quiet);
@@ -62,7 +69,14 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
     progress.finish();
 
     output.write(&output::png(&film, &name, &view)?)?;
-    let rendered = Rendered { name: &name, output: &args.output, world: &world, job: &job, made };
+    let rendered = Rendered {
+        name: &name,
+        output: &args.output,
+        world: &world,
+        job: &job,
+        kernel: &kernel,
+        made,
+    };
     if !args.quiet {
         ui::say(&rendered.line());
     }
@@ -74,13 +88,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
 
 /// The size in the flags, the scene's, or 512 by 512.
 pub(crate) fn picture_size(args: &PictureArgs, own: Option<&View>) -> (u32, u32) {
-    args.size.or(own.and_then(|view| view.size)).unwrap_or((512, 512))
+    args.size.or(own.and_then(|view| view.size)).unwrap_or(SIZE)
 }
 
 /// The scene's view or a fitted one, as far as the flags say nothing else.
-fn view(args: &PictureArgs, own: Option<View>, world: &World, size: (u32, u32)) -> View {
+fn view(args: &PictureArgs, own: Option<View>, bounds: &Aabb, size: (u32, u32)) -> View {
     let fov = args.fov.unwrap_or(FOV);
-    let fitted = || fitted_view(world.bounds(), size, args.up.unwrap_or(Vec3::Y), fov);
+    let fitted = || fitted_view(bounds, size, args.up.unwrap_or(Vec3::Y), fov);
     let base = own.unwrap_or_else(fitted);
     View {
         eye: args.eye.unwrap_or(base.eye),
@@ -92,6 +106,6 @@ fn view(args: &PictureArgs, own: Option<View>, world: &World, size: (u32, u32)) 
 }
 
 /// The camera of scenes that have none.
-pub(crate) fn default_view(world: &World, size: (u32, u32)) -> View {
-    fitted_view(world.bounds(), size, Vec3::Y, FOV)
+pub(crate) fn default_view(bounds: &Aabb, size: (u32, u32)) -> View {
+    fitted_view(bounds, size, Vec3::Y, FOV)
 }

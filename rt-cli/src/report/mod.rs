@@ -1,7 +1,9 @@
 //! What was done, in a line and in JSON.
 
+mod precision;
 mod words;
 
+pub(crate) use precision::{Kernel, facts_json, facts_lines};
 pub(crate) use words::{count, flags, number_of, plural, time};
 
 use std::path::Path;
@@ -22,6 +24,7 @@ pub(crate) struct Rendered<'a> {
     pub(crate) output: &'a Path,
     pub(crate) world: &'a World,
     pub(crate) job: &'a Job,
+    pub(crate) kernel: &'a Kernel,
     pub(crate) made: Report,
 }
 
@@ -40,7 +43,7 @@ impl Rendered<'_> {
             file => file,
         };
         format!(
-            "{output}: {}x{}, {}; {} built in {}, rendered in {} (tracing {}); Mray/s: {}; {}, {}",
+            "{output}: {}x{}, {}; {} built in {}, rendered in {} (tracing {}); Mray/s: {}; {}, {}; {}",
             self.job.size.0,
             self.job.size.1,
             number_of(&[("triangle", world.triangles()), ("sphere", world.spheres())]),
@@ -51,6 +54,7 @@ impl Rendered<'_> {
             speeds.join(", "),
             self.job.exec.level,
             count(self.job.threads, "thread"),
+            self.kernel.words(),
         )
     }
 
@@ -72,7 +76,8 @@ impl Rendered<'_> {
             "accel": world.accel_kind().name(),
             "layout": world.accel_kind().layout(),
             "packet": job.exec.lanes().to_string(),
-            "kernel": "watertight",
+            "kernel": self.kernel.method().name(),
+            "tolerance": self.kernel.json(),
             "build_ms": ms(world.build_time()),
             "trace_ms": ms(made.all().time),
             "shade_ms": ms(made.shading),

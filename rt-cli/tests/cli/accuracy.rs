@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::support::{Scratch, keys, levels};
 
-const QUICK: [&str; 4] = ["accuracy", "--quick", "--rays", "64"];
+const QUICK: [&str; 5] = ["accuracy", "--rays", "64", "--rounds", "1"];
 
 const KEYS: [&str; 25] = [
     "suite",

@@ -83,3 +83,21 @@ fn what_is_measured_before_a_bad_scene_is_shown() {
     assert!(run.stderr.starts_with("error: cannot read no.obj: "), "{}", run.stderr);
     assert!(scratch.names().is_empty(), "{:?}", scratch.names());
 }
+
+#[test]
+fn kernels_are_told_side_by_side() {
+    let scratch = Scratch::with_room();
+    let args = [&["bench", "room.obj", "--kernels", "--json", "b.json"], &QUICK[..]].concat();
+    let table = scratch.rt(&args).exits(0).text();
+    let json: Value = serde_json::from_slice(&scratch.bytes("b.json")).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    let kernels: Vec<_> = rows.iter().map(|row| row["kernel"].as_str().unwrap()).collect();
+    assert_eq!(kernels, ["watertight", "moller-trumbore", "wald"]);
+    let lines: Vec<_> = table.lines().collect();
+    let width = lines[0].chars().count();
+    assert!(width <= 80 && lines.iter().all(|line| line.chars().count() == width), "{table}");
+    for (line, kernel) in lines[1..].iter().zip(&kernels) {
+        let words: Vec<_> = line.split_whitespace().collect();
+        assert_eq!(words[..2], ["room.obj", kernel]);
+    }
+}

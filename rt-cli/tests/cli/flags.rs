@@ -16,7 +16,14 @@ fn help_fits_a_terminal_and_names_groups_and_defaults() {
         }
     }
     let help = scratch.rt(&["render", "-h"]).exits(0).text();
-    for heading in ["\nPicture:\n", "\nShading:\n", "\nMachine (", "\nTalk:\n", "\nExamples:\n"] {
+    for heading in [
+        "\nPicture:\n",
+        "\nShading:\n",
+        "\nPrecision:\n",
+        "\nMachine (",
+        "\nTalk:\n",
+        "\nExamples:\n",
+    ] {
         assert!(help.contains(heading), "{heading:?} in\n{help}");
     }
     let flowing = help.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -30,6 +37,8 @@ fn help_fits_a_terminal_and_names_groups_and_defaults() {
         ("--background", "the scene's, or 0.05,0.05,0.06"),
         ("--integrator", "whitted"),
         ("--depth", "5"),
+        ("--kernel", "watertight"),
+        ("--tolerance", "none, which is 0"),
         ("--isa", "auto"),
         ("--packet", "native"),
         ("--threads", "one a core"),
@@ -82,6 +91,13 @@ fn wrong_usage_is_exit_code_2_and_does_nothing() {
         "render room.obj -o a.png -j 70000",
         "render room.obj -o a.png --accel octree",
         "render room.obj -o a.png --progress dots",
+        "render room.obj -o a.png --kernel pluecker",
+        "render room.obj -o a.png --tolerance",
+        "render room.obj -o a.png --tolerance -1",
+        "render room.obj -o a.png --tolerance nan",
+        "render room.obj -o a.png --tolerance inf",
+        "render room.obj -o a.png --tolerance 1px",
+        "render room.obj -o a.png --tolerance 1 --kernel wald",
         "gen",
         "gen balls --size x",
         "gen balls --size -1",

@@ -16,6 +16,7 @@ fn a_scene_s_keys_are_those_that_are_documented() {
         "bounds",
         "skipped",
         "warnings",
+        "precision",
     ];
     assert_eq!(keys(&info), expected);
     assert_eq!(keys(&info["bounds"]), ["min", "max"]);
@@ -59,6 +60,11 @@ a.obj
   lights      0
   bounds      [0, 0, 0] to [1, 1, 0]
   extent      [1, 1, 0]
+  precision   coordinates up to 1.00, features down to 0.707: ratio 1.41
+  slivers     up to 2.00 times as long as high
+  kernel      wald: band 1.26e-6, depth 9.86e-7: at most 7.85e-4 px; enough for any tolerance above that
+  kernel      moller-trumbore: band 6.00e-7, depth 1.90e-6: at most 1.18e-3 px; enough for any tolerance above that
+  kernel      watertight: band 8.55e-7, depth 1.52e-6: at most 9.47e-4 px; keeps the promise: no leaks
 ";
     assert_eq!(text, expected);
     let balls = scratch.rt(&["info", "spd:balls:0"]).exits(0).text();

@@ -13,6 +13,7 @@ mod machine;
 #[cfg(unix)]
 mod output;
 mod picture;
+mod precision;
 mod stats;
 mod support;
 mod talk;

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::support::{Scratch, keys, levels};
 
-const KEYS: [&str; 25] = [
+const KEYS: [&str; 26] = [
     "scene",
     "output",
     "width",
@@ -18,6 +18,7 @@ const KEYS: [&str; 25] = [
     "layout",
     "packet",
     "kernel",
+    "tolerance",
     "build_ms",
     "trace_ms",
     "shade_ms",

@@ -23,7 +23,7 @@ fn the_closing_line_has_it_all() {
         "s); Mray/s: primary ",
         ", shadow ",
         ", reflection ",
-        "; scalar, 1 thread",
+        "; scalar, 1 thread; watertight kernel",
     ] {
         rest = match rest.split_once(part) {
             Some((_, rest)) => rest,
@@ -36,7 +36,7 @@ fn the_closing_line_has_it_all() {
     let args = ["render", "spd:balls:1", "-o", "a.png", "-s", "8x8", "-j2", "--accel", "brute"];
     let line = scratch.rt(&args).exits(0).stderr;
     assert!(line.starts_with("a.png: 8x8, 2 triangles, 10 spheres; brute built in "), "{line}");
-    assert!(line.ends_with(&format!("; {best}, 2 threads\n")), "{line}");
+    assert!(line.ends_with(&format!("; {best}, 2 threads; watertight kernel\n")), "{line}");
     scratch.file("one.obj", TRIANGLE);
     let line = scratch.rt(&["render", "one.obj", "-o", "a.png", "-s", "8x8"]).exits(0).stderr;
     assert!(line.contains(": 8x8, 1 triangle; "), "{line}");

@@ -13,6 +13,7 @@ use simd4::SimdF32;
 
 use crate::packet::{Frame, Packet, Query};
 use crate::trace::Traverse;
+use crate::tri::{Method, TriangleKernel};
 use crate::{Primitives, Stats};
 use layout::SkipArray;
 
@@ -31,9 +32,21 @@ impl Bvh {
     /// If a coordinate is not finite or greater than 2^40, if a sphere has no radius, or if there
     /// are more than 2^28 primitives.
     pub fn build(primitives: &Primitives, join: &impl Join) -> Result<Bvh, BuildError> {
+        Bvh::build_with(primitives, Method::default(), join)
+    }
+
+    /// Builds the hierarchy for a triangle test of that method.
+    ///
+    /// # Errors
+    /// As [`build`](Bvh::build).
+    pub fn build_with(
+        primitives: &Primitives,
+        method: Method,
+        join: &impl Join,
+    ) -> Result<Bvh, BuildError> {
         primitives.check()?;
         let tree = build::binned_sah::build(primitives, join);
-        Ok(Bvh { array: SkipArray::new(primitives, &tree) })
+        Ok(Bvh { array: SkipArray::new(primitives, &tree, method) })
     }
 
     /// The number of nodes.
@@ -44,7 +57,7 @@ impl Bvh {
 
 impl Traverse for Bvh {
     #[inline(always)]
-    fn traverse<V: SimdF32, F: Frame<V>, Q: Query<V>>(
+    fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
         &self,
         s: V::Simd,
         packet: &Packet<V>,
@@ -52,7 +65,11 @@ impl Traverse for Bvh {
         query: &mut Q,
         stats: &mut Stats,
     ) {
-        traverse::skip::traverse(s, &self.array, packet, frame, query, stats);
+        traverse::skip::traverse::<K, V, F, Q>(s, &self.array, packet, frame, query, stats);
+    }
+
+    fn method(&self) -> Method {
+        self.array.store.method()
     }
 
     fn bytes(&self) -> usize {

@@ -3,16 +3,18 @@
 //! A kernel is one text for three uses: rays in lanes against one [`Record`], one ray in all lanes
 //! against records in lanes ([`RecordBlock`]), and one against one, which is the same with one
 //! lane. Its choices of [arithmetic](knobs) are type parameters. [`catalogue`] lists every kernel
-//! with every choice; what renders is
-//! [`Watertight`]'s default.
+//! with every choice; what renders is [`Watertight`]'s default, or another [`Method`] that was asked
+//! for.
 //!
 //! Rays that run in a triangle's plane, triangles without area and numbers that are not finite hit
 //! nothing, with any kernel, but for what the file of a kernel says.
 
 mod catalogue;
 pub mod knobs;
+pub(crate) mod method;
 mod moller_trumbore;
 mod moller_trumbore_f64;
+mod own_box;
 mod plucker;
 mod record;
 mod sweep;
@@ -20,6 +22,8 @@ mod wald;
 mod watertight;
 
 pub use catalogue::{TriangleTest, catalogue};
+pub use method::Method;
+pub(crate) use method::with_kernel;
 pub use moller_trumbore::MollerTrumbore;
 pub use moller_trumbore_f64::MollerTrumboreF64;
 pub use plucker::Plucker;
@@ -30,7 +34,7 @@ pub use watertight::Watertight;
 
 use simd4::{SimdF32, SimdMask};
 
-use crate::geom::Triangle;
+use crate::geom::{Aabb, Triangle};
 use crate::packet::{Frame, Packet, Query};
 
 /// A way to decide whether a ray meets a triangle, and where.
@@ -43,8 +47,14 @@ pub trait TriangleKernel: Send + Sync + 'static {
     const FUSED: bool = false;
     /// Whether it looks at the [`Frame`]. If not, any frame will do.
     const FRAMED: bool = false;
+    /// Whether renderers have it for packets of any size. If not, for single rays and registers
+    /// alone: code is what takes time to compile.
+    const ANY_PACKET: bool = false;
     /// Whether it is for scalar use only.
     const SCALAR: bool = false;
+    /// Whether its hits are held in the triangle's own box already
+    /// ([why](crate#why-the-answer-is-one)).
+    const IN_OWN_BOX: bool = false;
 
     /// Its choices, in words: distinct among the variants of one method.
     fn variant() -> String;
@@ -89,5 +99,24 @@ pub fn intersect<K: TriangleKernel, V: SimdF32, F: Frame<V>, R: Records<V>, Q: Q
         && found.mask.any()
     {
         query.record(s, found.mask, records.prim(s), found.t, found.u, found.v);
+    }
+}
+
+/// As [`intersect`], with hits held in the triangle's own box, which this is.
+#[inline(always)]
+pub fn intersect_in<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
+    s: V::Simd,
+    record: &Record,
+    own_box: &Aabb,
+    packet: &Packet<V>,
+    frame: &F,
+    query: &mut Q,
+) {
+    let limit = query.limit();
+    if let Some(found) = K::test(s, record, packet, frame, limit)
+        && found.mask.any()
+    {
+        let held = own_box::held(s, own_box, packet, frame, limit, found);
+        query.record(s, held.mask, Records::<V>::prim(record, s), held.t, held.u, held.v);
     }
 }

@@ -5,10 +5,9 @@ use std::marker::PhantomData;
 use simd4::{SimdF32, SimdMask};
 
 use super::knobs::{Division, Plain, Reciprocal, Rounding, words};
-use super::{Found, Record, Records, TriangleKernel};
+use super::{Found, Record, Records, TriangleKernel, own_box};
 use crate::geom::Triangle;
 use crate::packet::{Frame, Packet};
-use crate::slab::robust;
 
 /// The watertight triangle test.
 ///
@@ -66,6 +65,8 @@ impl<C: Reciprocal, A: Rounding, const EXACT_ZEROS: bool, const OWN_BOX: bool> T
     const EXACT: bool = C::EXACT;
     const FUSED: bool = A::FUSED;
     const FRAMED: bool = true;
+    const ANY_PACKET: bool = true;
+    const IN_OWN_BOX: bool = OWN_BOX;
 
     fn variant() -> String {
         words::<C, A>(&[
@@ -120,16 +121,14 @@ impl<C: Reciprocal, A: Rounding, const EXACT_ZEROS: bool, const OWN_BOX: bool> T
         let t = A::mul_add(w, c.z, A::mul_add(v, b.z, u * a.z)) * inv_det * shear.z;
         let candidates = inside & packet.tmin.le(t) & t.le(limit);
         let (u, v) = (v * inv_det, w * inv_det);
+        let found = Found { mask: candidates, t, u, v };
         if !OWN_BOX {
-            return Some(Found { mask: candidates, t, u, v });
+            return Some(found);
         }
         if candidates.none() {
             return None;
         }
-        let (enter, exit) = robust::enter_exit(s, &records.own_boxes(s), packet, frame);
-        let t = t.max(enter);
-        let mask = candidates & enter.le(exit) & packet.tmin.le(exit) & t.le(limit);
-        Some(Found { mask, t, u, v })
+        Some(own_box::held(s, &records.own_boxes(s), packet, frame, limit, found))
     }
 }
 

@@ -2,14 +2,26 @@
 
 use std::time::{Duration, Instant};
 
+use rt_kernels::tri::Method;
 use rt_kernels::{Exec, Hits, Rays, Stats};
 
 use crate::exec::{camera, tile};
 use crate::{Job, RenderError, World};
 
+/// A world, which has a triangle test, and how to trace it.
+#[derive(Clone, Copy)]
+pub struct Way<'a> {
+    /// The world. All ways have the same scene.
+    pub world: &'a World,
+    /// Level and packet size.
+    pub exec: Exec,
+}
+
 /// What one way to trace the primary rays of a picture took.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
+    /// The triangle test.
+    pub method: Method,
     /// Level and packet size.
     pub exec: Exec,
     /// The number of rays.
@@ -18,7 +30,8 @@ pub struct Row {
     pub time: Duration,
     /// The work of all rays.
     pub stats: Stats,
-    /// Rays whose hit is not, bit for bit, that of the first way. Anything but 0 is a fault.
+    /// Rays whose hit is not, bit for bit, that of the first way. Anything but 0 is a fault, if the
+    /// triangle test is the same.
     pub differing: u64,
 }
 
@@ -27,13 +40,9 @@ pub struct Row {
 ///
 /// # Errors
 /// If the camera looks nowhere.
-pub fn primary(
-    world: &World,
-    job: &Job,
-    ways: &[Exec],
-    rounds: usize,
-) -> Result<Vec<Row>, RenderError> {
-    let camera = camera(world, job)?;
+pub fn primary(job: &Job, ways: &[Way<'_>], rounds: usize) -> Result<Vec<Row>, RenderError> {
+    let Some(first) = ways.first() else { return Ok(Vec::new()) };
+    let camera = camera(first.world, job)?;
     let (width, height) = job.size;
     let batches: Vec<Rays> = tile::tiles(width, height)
         .into_iter()
@@ -42,9 +51,15 @@ pub fn primary(
 
     let mut reference = Vec::new();
     let mut rows = Vec::new();
-    for &exec in ways {
-        let mut row =
-            Row { exec, rays: 0, time: Duration::ZERO, stats: Stats::default(), differing: 0 };
+    for &Way { world, exec } in ways {
+        let mut row = Row {
+            method: world.method(),
+            exec,
+            rays: 0,
+            time: Duration::ZERO,
+            stats: Stats::default(),
+            differing: 0,
+        };
         for (i, rays) in batches.iter().enumerate() {
             let mut hits = Hits::new();
             world.accel.closest(exec, rays, &mut hits, &mut row.stats);
@@ -63,7 +78,7 @@ pub fn primary(
     let mut times = vec![Vec::new(); ways.len()];
     let mut hits = Hits::new();
     for _ in 0..rounds {
-        for (&exec, times) in ways.iter().zip(&mut times) {
+        for (&Way { world, exec }, times) in ways.iter().zip(&mut times) {
             let start = Instant::now();
             for rays in &batches {
                 world.accel.closest(exec, rays, &mut hits, &mut Stats::default());

@@ -8,6 +8,7 @@ use std::ops::Range;
 use crate::bvh::build::{self, Content};
 use crate::geom::Aabb;
 use crate::primitives::{Primitives, Store};
+use crate::tri::Method;
 
 /// A box, and where to go from it.
 #[derive(Clone, Copy, Debug)]
@@ -48,14 +49,14 @@ pub struct SkipArray {
 impl SkipArray {
     /// Converts a build tree. Of two children the one with the larger surface comes first: it is
     /// the likelier to be hit, and a hit bounds the rest.
-    pub(crate) fn new(primitives: &Primitives, tree: &build::Tree) -> SkipArray {
+    pub(crate) fn new(primitives: &Primitives, tree: &build::Tree, method: Method) -> SkipArray {
         let mut flat =
             Flattener { primitives, tree, nodes: Vec::new(), order: Vec::new(), slots: [0; 2] };
         flat.slots[1] = primitives.triangles.len();
         if let Some(root) = &tree.root {
             flat.emit(root);
         }
-        let store = Store::reordered(primitives, flat.order.into_iter());
+        let store = Store::reordered(primitives, method, flat.order.into_iter());
         SkipArray { nodes: flat.nodes, store }
     }
 

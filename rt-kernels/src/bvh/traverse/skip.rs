@@ -10,10 +10,12 @@ use crate::Stats;
 use crate::bvh::layout::SkipArray;
 use crate::packet::{Frame, Packet, Query};
 use crate::slab::robust;
+use crate::tri::TriangleKernel;
 
-/// Hands the primitives of every leaf that some ray may hit to their kernels.
+/// Hands the primitives of every leaf that some ray may hit to their kernels, triangles to `K`: that
+/// of the method that the array was made for.
 #[inline(always)]
-pub fn traverse<V: SimdF32, F: Frame<V>, Q: Query<V>>(
+pub fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
     s: V::Simd,
     array: &SkipArray,
     packet: &Packet<V>,
@@ -32,7 +34,7 @@ pub fn traverse<V: SimdF32, F: Frame<V>, Q: Query<V>>(
         }
         i += 1;
         if let Some(slots) = node.slots() {
-            array.store.intersect(s, slots, packet, frame, query, stats);
+            array.store.intersect::<K, V, F, Q>(s, slots, packet, frame, query, stats);
             if query.done(s) {
                 break;
             }

@@ -1,0 +1,99 @@
+//! How far each triangle test may be off.
+
+use crate::Method;
+
+/// The unit roundoff of `f32`: 2^-24.
+pub const ROUNDOFF: f64 = 1.0 / (1 << 24) as f64;
+
+/// What a triangle test misjudges: bounds, all in units of [`ROUNDOFF`].
+///
+/// The **band** of an edge is how far from it, at right angles to itself, a ray may pass and still
+/// be judged as if it passed on the other side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// The test.
+    pub method: Method,
+    /// The band, for each unit of the distance from the ray's origin to the farthest corner.
+    pub reach: f64,
+    /// The band, for each unit of the greatest coordinate of ray and triangle: what precomputed
+    /// numbers about the world's origin cost. 0 for a test that is relative to the ray.
+    pub coordinate: f64,
+    /// Whether one edge is judged by what the other two leave of 1: in a needle its band is as
+    /// many times greater as they are longer.
+    pub remainder: bool,
+    /// Whether the band of an edge grows with the cosecant of the angle at which it is seen.
+    pub end_on: bool,
+    /// How far `t` is off, as a shift of the triangle's plane, in the same units as `reach`.
+    pub depth: f64,
+    /// Whether that grows with the slimness of the triangle, because `t` is made of its edges and
+    /// not of its plane.
+    pub slim: bool,
+    /// The greatest number of triangles for which the test is worth its memory.
+    pub most_triangles: usize,
+}
+
+/// The bounds of all methods, cheapest first; the last is the default.
+///
+/// `reach`, `coordinate` and `depth` are the worst that was seen of ten million rays aimed at the
+/// edges of random triangles (near the origin, far from it, needles, edges seen end on;
+/// `PROPTEST_CASES=6000 cargo test -p rt-tests precision` aims them again), at least doubled. That `end_on` and `remainder` are all that makes them grow
+/// follows from the roundings: Möller and Trumbore's edge functions are triple products, each off by
+/// roundings of its factors' lengths, whatever the angle; Wald's are off by the size of the
+/// coordinates. The watertight test's band is proven ([`Watertight`](rt_kernels::tri::Watertight),
+/// "Precision": 6 roundoffs along each of two axes).
+///
+/// The order is that of `rt bench --kernels` on meshes that are not needles. Wald's own boxes are 24 bytes more a triangle: where
+/// the records no longer fit in a cache, that costs more than the test saves.
+pub const ERRORS: [Errors; 3] = [
+    Errors {
+        method: Method::Wald,
+        reach: 4.0,
+        coordinate: 6.0,
+        remainder: true,
+        end_on: false,
+        depth: 5.0,
+        slim: false,
+        most_triangles: 1 << 17,
+    },
+    Errors {
+        method: Method::MollerTrumbore,
+        reach: 4.0,
+        coordinate: 0.0,
+        remainder: true,
+        end_on: true,
+        depth: 10.0,
+        slim: true,
+        most_triangles: usize::MAX,
+    },
+    Errors {
+        method: Method::Watertight,
+        reach: 9.0,
+        coordinate: 0.0,
+        remainder: false,
+        end_on: false,
+        depth: 8.0,
+        slim: true,
+        most_triangles: usize::MAX,
+    },
+];
+
+/// The bounds of one method.
+pub fn errors(method: Method) -> &'static Errors {
+    let found = ERRORS.iter().find(|errors| errors.method == method);
+    found.expect("the table has a line for every method")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_method_has_a_line_and_the_default_is_the_last_resort() {
+        for method in Method::ALL {
+            assert_eq!(errors(method).method, method);
+        }
+        assert_eq!(ERRORS.len(), Method::ALL.len());
+        let last = ERRORS[ERRORS.len() - 1];
+        assert_eq!((last.method, last.most_triangles), (Method::default(), usize::MAX));
+    }
+}
