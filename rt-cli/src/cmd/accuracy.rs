@@ -7,9 +7,10 @@ use rt_accuracy::boxes::BoxFamily;
 use rt_accuracy::quadrics::QuadricFamily;
 use rt_accuracy::triangles::TriangleFamily;
 use rt_accuracy::{
-    Family, Listed, Row, Setting, Shape, Time, complaints, measure, subjects, worst,
+    Family, Kind, Listed, Row, Setting, Shape, Time, complaints, measure, subjects, worst,
 };
 use rt_render::Level;
+use rt_render::precision::{ERRORS, Errors};
 use serde_json::{Value, json};
 
 use crate::args::{AccuracyArgs, MeasureArgs, best_level};
@@ -53,13 +54,14 @@ impl Measured {
         });
         let mut measured = Measured { json, table: String::new(), complaints: Vec::new() };
         let level = best_level()?;
-        measured.add::<TriangleFamily>(args, level);
+        let triangles = measured.add::<TriangleFamily>(args, level);
+        measured.complaints.extend(beyond(&ERRORS, &triangles));
         measured.add::<BoxFamily>(args, level);
         measured.add::<QuadricFamily>(args, level);
         Ok(measured)
     }
 
-    fn add<F: Family>(&mut self, args: &MeasureArgs, level: Level) {
+    fn add<F: Family>(&mut self, args: &MeasureArgs, level: Level) -> Vec<Row<F>> {
         let subjects = subjects::<F>();
         let mut rows = Vec::new();
         for (i, family) in (1..).zip(F::all()) {
@@ -83,7 +85,29 @@ impl Measured {
         }
         self.table += &table(&timed, level);
         self.complaints.extend(complaints(&rows));
+        rows
     }
+}
+
+/// Where a triangle test that renders misjudges more than the table says that tolerances go by: in
+/// meshes of triangles that are not slim.
+fn beyond(table: &[Errors], rows: &[Row<TriangleFamily>]) -> Vec<String> {
+    let mut beyond = Vec::new();
+    for row in rows {
+        let (facts, kernel) = (row.family.facts(), row.subject.kernel);
+        let slim = ["pancake", "needle"].contains(&facts.name);
+        let plain = kernel.is_exact() && !kernel.variant().contains("fused");
+        let of = |errors: &&Errors| errors.method.name() == kernel.name();
+        let Some(errors) = table.iter().find(of).filter(|_| plain && !slim) else { continue };
+        // No two points are farther from each other than the diagonal of a cube about the origin.
+        let most = errors.reach * 2.0 * 3f64.sqrt() + errors.coordinate;
+        if facts.kind == Kind::Closed && row.tally.band > most {
+            let (name, band) = (facts.name, row.tally.band);
+            let which = format!("{} ({})", kernel.name(), kernel.variant());
+            beyond.push(format!("{which}: band {band:.2} in {name}; the table says {most:.2}"));
+        }
+    }
+    beyond
 }
 
 /// What the machine calls itself, as far as it says.
@@ -190,4 +214,23 @@ fn table<F: Family>(rows: &[(&Row<F>, &Time)], level: Level) -> String {
         );
     }
     text + "* what renders\n\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_that_says_too_little_is_found() {
+        let edge = TriangleFamily::named("edge").unwrap();
+        let subjects = subjects::<TriangleFamily>();
+        let rows = measure(&subjects, edge, edge.facts().setting, 1_024);
+        assert_eq!(beyond(&ERRORS, &rows), <[String; 0]>::default());
+        let too_little = ERRORS.map(|errors| Errors { reach: 0.1, coordinate: 0.0, ..errors });
+        let found = beyond(&too_little, &rows);
+        for errors in &ERRORS {
+            let name = errors.method.name();
+            assert!(found.iter().any(|text| text.starts_with(name)), "{name}: {found:?}");
+        }
+    }
 }

@@ -36,14 +36,16 @@ pub struct Errors {
 ///
 /// `reach`, `coordinate` and `depth` are the worst that was seen of ten million rays aimed at the
 /// edges of random triangles (near the origin, far from it, needles, edges seen end on;
-/// `PROPTEST_CASES=6000 cargo test -p rt-tests precision` aims them again), at least doubled. That `end_on` and `remainder` are all that makes them grow
-/// follows from the roundings: Möller and Trumbore's edge functions are triple products, each off by
+/// `PROPTEST_CASES=6000 cargo test -p rt-tests precision` aims them again), at least doubled; `rt
+/// accuracy` holds its closed meshes against them. That `end_on` and `remainder` are all that makes
+/// them grow follows from the roundings: Möller and Trumbore's edge functions are triple products, each off by
 /// roundings of its factors' lengths, whatever the angle; Wald's are off by the size of the
 /// coordinates. The watertight test's band is proven ([`Watertight`](rt_kernels::tri::Watertight),
 /// "Precision": 6 roundoffs along each of two axes).
 ///
-/// The order is that of `rt bench --kernels` on meshes that are not needles. Wald's own boxes are 24 bytes more a triangle: where
-/// the records no longer fit in a cache, that costs more than the test saves.
+/// The order is that of `rt bench --kernels` on meshes that are not needles. Wald's own boxes are 24
+/// bytes more a triangle: where the records no longer fit in a cache, that costs more than the test
+/// saves.
 pub const ERRORS: [Errors; 3] = [
     Errors {
         method: Method::Wald,
