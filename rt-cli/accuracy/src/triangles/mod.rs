@@ -14,7 +14,7 @@ use rt_kernels::tri::{TriangleTest, catalogue};
 use crate::{Ceiling, Facts, Family, Kind, Row, Setting, Subject, Tally, Time};
 pub use families::{Batch, TriangleFamily};
 
-/// A [`TriangleTest`] and a way to run it.
+/// What is listed.
 type Kernel = dyn TriangleTest;
 
 impl Family for TriangleFamily {
