@@ -59,6 +59,7 @@ pub mod quadric;
 pub mod reference;
 pub mod slab;
 mod stats;
+mod sweep;
 mod trace;
 pub mod tri;
 

@@ -129,9 +129,8 @@ fn way<F: Family>(row: &Row<F>) -> (&'static str, usize, &'static str) {
 }
 
 fn row_json<F: Family>(row: &Row<F>, time: &Time) -> Value {
-    let (Row { subject, family, setting, tally }, facts) = (row, row.family.facts());
+    let (Row { subject, setting, tally, .. }, facts) = (row, row.family.facts());
     let (level, width, shape) = way(row);
-    debug_assert_eq!(facts.name, family.facts().name);
     json!({
         "suite": F::SORT,
         "kernel": subject.kernel.name(),

@@ -3,7 +3,7 @@
 use simd4::math::Vec3;
 use simd4::{Block16, Lanes, SimdF32};
 
-use crate::geom::{Aabb, PADDING, Quadric, Sphere};
+use crate::geom::{Aabb, Quadric, Sphere};
 use crate::packet::{Boxes, OwnBoxes};
 
 /// A record's numbers: the centre, a size, M, the axis, the range and the linear coefficients.
@@ -217,18 +217,11 @@ impl<V: SimdF32> Records<V> for BlockLanes<'_> {
     fn own_boxes(&self, s: V::Simd) -> OwnBoxes<V> {
         let (Vec3 { x, y, z }, radius): (Vec3<V>, V) = (self.center(s), self.size(s));
         let (x, y, z) = (about(x, radius), about(y, radius), about(z, radius));
-        let extent = (x[1] - x[0]).max(y[1] - y[0]).max(z[1] - z[0]) * V::splat(s, PADDING);
-        OwnBoxes([padded(s, x, extent), padded(s, y, extent), padded(s, z, extent)])
+        OwnBoxes::padded(s, [x, y, z])
     }
 }
 
 #[inline(always)]
 fn about<V: SimdF32>(center: V, radius: V) -> [V; 2] {
     [center - radius, center + radius]
-}
-
-#[inline(always)]
-fn padded<V: SimdF32>(s: V::Simd, [min, max]: [V; 2], extent: V) -> [V; 2] {
-    let pad = extent + min.abs().max(max.abs()) * V::splat(s, f32::EPSILON);
-    [min - pad, max + pad]
 }

@@ -1,14 +1,17 @@
-//! Many rays against many surfaces, one by one: the loop that tests, benches and charts share.
+//! Curved surfaces for the common loop.
 
-use simd4::{Simd, SimdF32, dispatch, scalar};
+use std::marker::PhantomData;
+
+use simd4::SimdF32;
 
 use super::record::BlockLanes;
 use super::{Found, QuadricKernel, Record, RecordBlock, Records};
-use crate::catalogue::{Shape, Way};
+use crate::catalogue::Way;
 use crate::geom::Curved;
 use crate::packet::{Closest, Frame, Hits, Packet, Query, Rays};
+use crate::sweep::{self, Sweep};
 
-/// Surfaces as one kernel keeps them, for every [`Shape`].
+/// Surfaces as one kernel keeps them, for every [`Shape`](crate::catalogue::Shape).
 #[derive(Clone, Debug)]
 pub struct Surfaces {
     records: Vec<Record>,
@@ -35,45 +38,49 @@ pub(super) fn closest<K: QuadricKernel>(
     rays: &Rays,
     hits: &mut Hits,
 ) {
-    hits.resize(rays.len());
-    match way.shape {
-        Shape::One => rays_in_lanes::<K, scalar::f32x1>(simd4::Scalar::new(), surfaces, rays, hits),
-        _ if !runs::<K>(way) => panic!("{} does not run at {}", K::NAME, way.level),
-        Shape::Rays => dispatch!(way.level, s => native_rays::<K, _>(s, surfaces, rays, hits)),
-        Shape::Primitives => {
-            dispatch!(way.level, s => native_surfaces::<K, _>(s, surfaces, rays, hits))
-        }
-    }
+    sweep::closest::<Of<K>>(way, &surfaces.records, &surfaces.blocks, rays, hits);
 }
 
 /// Whether a kernel is there for a level and a shape.
 pub(super) fn runs<K: QuadricKernel>(way: Way) -> bool {
-    !K::FUSED || way.fuses()
+    sweep::runs::<Of<K>>(way)
 }
 
-/// Whether there is code of a kernel for vectors of that type.
-const fn has_code<K: QuadricKernel, V: SimdF32>() -> bool {
-    V::LANES == 1 || !K::FUSED || V::FUSED
-}
+/// A kernel as the common loop has it.
+struct Of<K>(PhantomData<K>);
 
-#[inline(always)]
-fn native_rays<K: QuadricKernel, S: Simd>(s: S, surfaces: &Surfaces, rays: &Rays, hits: &mut Hits) {
-    if const { has_code::<K, S::f32s>() } {
-        rays_in_lanes::<K, S::f32s>(s, surfaces, rays, hits);
+impl<K: QuadricKernel> Sweep for Of<K> {
+    const NAME: &'static str = K::NAME;
+    const FRAMED: bool = K::FRAMED;
+    const FUSED: bool = K::FUSED;
+    type Record = Record;
+    type Block = RecordBlock;
+
+    #[inline(always)]
+    fn one<V: SimdF32, F: Frame<V>>(
+        s: V::Simd,
+        record: &Record,
+        packet: &Packet<V>,
+        frame: &F,
+        query: &mut Closest<V>,
+    ) {
+        intersect::<K, V, F, _>(s, record, packet, frame, query);
+    }
+
+    #[inline(always)]
+    fn lanes<V: SimdF32, F: Frame<V>>(
+        s: V::Simd,
+        block: &RecordBlock,
+        first: usize,
+        packet: &Packet<V>,
+        frame: &F,
+        query: &mut Closest<V>,
+    ) {
+        intersect::<K, V, F, _>(s, &BlockLanes::new(block, first), packet, frame, query);
     }
 }
 
-#[inline(always)]
-fn native_surfaces<K: QuadricKernel, S: Simd>(
-    s: S,
-    surfaces: &Surfaces,
-    rays: &Rays,
-    hits: &mut Hits,
-) {
-    if const { has_code::<K, S::f32s>() } {
-        surfaces_in_lanes::<K, S::f32s>(s, surfaces, rays, hits);
-    }
-}
+const _: () = assert!(RecordBlock::LANES == 16);
 
 #[inline(always)]
 fn intersect<K: QuadricKernel, V: SimdF32, F: Frame<V>, R: Records<V>>(
@@ -86,84 +93,5 @@ fn intersect<K: QuadricKernel, V: SimdF32, F: Frame<V>, R: Records<V>>(
     if let Some(Found { mask, t }) = K::test(s, records, packet, frame, query.limit()) {
         let zero = V::splat(s, 0.0);
         query.record(s, mask, records.prim(s), t, zero, zero);
-    }
-}
-
-#[inline(always)]
-fn rays_in_lanes<K: QuadricKernel, V: SimdF32>(
-    s: V::Simd,
-    surfaces: &Surfaces,
-    rays: &Rays,
-    hits: &mut Hits,
-) {
-    let mut first = 0;
-    while first < rays.len() {
-        let packet = Packet::<V>::load(s, rays, first);
-        let mut query = Closest::new(s, &packet);
-        let records = &surfaces.records;
-        if K::FRAMED {
-            match packet.frame(s) {
-                Ok(frame) => every_record::<K, V, _>(s, records, &packet, &frame, &mut query),
-                Err(frame) => every_record::<K, V, _>(s, records, &packet, &frame, &mut query),
-            }
-        } else {
-            every_record::<K, V, _>(s, records, &packet, &packet.mixed(s), &mut query);
-        }
-        query.store(hits, first);
-        first += V::LANES;
-    }
-}
-
-#[inline(always)]
-fn every_record<K: QuadricKernel, V: SimdF32, F: Frame<V>>(
-    s: V::Simd,
-    records: &[Record],
-    packet: &Packet<V>,
-    frame: &F,
-    query: &mut Closest<V>,
-) {
-    for record in records {
-        intersect::<K, V, F, _>(s, record, packet, frame, query);
-    }
-}
-
-#[inline(always)]
-fn surfaces_in_lanes<K: QuadricKernel, V: SimdF32>(
-    s: V::Simd,
-    surfaces: &Surfaces,
-    rays: &Rays,
-    hits: &mut Hits,
-) {
-    let mut i = 0;
-    while i < rays.len() {
-        let packet = Packet::<V>::splat(s, &rays.get(i));
-        let mut query = Closest::new(s, &packet);
-        if K::FRAMED {
-            // All lanes agree.
-            if let Ok(frame) = packet.frame(s) {
-                every_block::<K, V, _>(s, &surfaces.blocks, &packet, &frame, &mut query);
-            }
-        } else {
-            every_block::<K, V, _>(s, &surfaces.blocks, &packet, &packet.mixed(s), &mut query);
-        }
-        query.store_least(s, hits, i);
-        i += 1;
-    }
-}
-
-#[inline(always)]
-fn every_block<K: QuadricKernel, V: SimdF32, F: Frame<V>>(
-    s: V::Simd,
-    blocks: &[RecordBlock],
-    packet: &Packet<V>,
-    frame: &F,
-    query: &mut Closest<V>,
-) {
-    for block in blocks {
-        let mut first = 0;
-        while first < RecordBlock::LANES {
-            intersect::<K, V, F, _>(s, &BlockLanes::new(block, first), packet, frame, query);
-            first += V::LANES;
-        }
     }
 }

@@ -199,8 +199,7 @@ impl<V: SimdF32> Records<V> for BlockLanes<'_> {
     fn own_boxes(&self, s: V::Simd) -> OwnBoxes<V> {
         let [a, b, c]: [Vec3<V>; 3] = [self.vec3(s, 0), self.vec3(s, 1), self.vec3(s, 2)];
         let (x, y, z) = (range(a.x, b.x, c.x), range(a.y, b.y, c.y), range(a.z, b.z, c.z));
-        let extent = (x[1] - x[0]).max(y[1] - y[0]).max(z[1] - z[0]) * V::splat(s, PADDING);
-        OwnBoxes([padded(s, x, extent), padded(s, y, extent), padded(s, z, extent)])
+        OwnBoxes::padded(s, [x, y, z])
     }
 }
 
@@ -208,10 +207,4 @@ impl<V: SimdF32> Records<V> for BlockLanes<'_> {
 #[inline(always)]
 fn range<V: SimdF32>(a: V, b: V, c: V) -> [V; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
-}
-
-#[inline(always)]
-fn padded<V: SimdF32>(s: V::Simd, [min, max]: [V; 2], extent: V) -> [V; 2] {
-    let pad = extent + min.abs().max(max.abs()) * V::splat(s, f32::EPSILON);
-    [min - pad, max + pad]
 }

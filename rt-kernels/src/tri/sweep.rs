@@ -1,13 +1,16 @@
-//! Many rays against many triangles, one by one: the loop that tests, benches and charts share.
+//! Triangles for the common loop.
 
-use simd4::{Simd, SimdF32, dispatch, scalar};
+use std::marker::PhantomData;
+
+use simd4::SimdF32;
 
 use super::{BlockLanes, Record, RecordBlock, TriangleKernel, intersect};
-use crate::catalogue::{Shape, Way};
+use crate::catalogue::Way;
 use crate::geom::Triangle;
 use crate::packet::{Closest, Frame, Hits, Packet, Rays};
+use crate::sweep::{self, Sweep};
 
-/// Triangles as one kernel keeps them, for every [`Shape`].
+/// Triangles as one kernel keeps them, for every [`Shape`](crate::catalogue::Shape).
 #[derive(Clone, Debug)]
 pub struct Triangles {
     records: Vec<Record>,
@@ -31,129 +34,47 @@ pub(super) fn closest<K: TriangleKernel>(
     rays: &Rays,
     hits: &mut Hits,
 ) {
-    hits.resize(rays.len());
-    match way.shape {
-        Shape::One => {
-            rays_in_lanes::<K, scalar::f32x1>(simd4::Scalar::new(), triangles, rays, hits)
-        }
-        _ if !runs::<K>(way) => panic!("{} does not run at {}", K::NAME, way.level),
-        Shape::Rays => dispatch!(way.level, s => native_rays::<K, _>(s, triangles, rays, hits)),
-        Shape::Primitives => {
-            dispatch!(way.level, s => native_triangles::<K, _>(s, triangles, rays, hits))
-        }
-    }
+    sweep::closest::<Of<K>>(way, &triangles.records, &triangles.blocks, rays, hits);
 }
 
 /// Whether a kernel is there for a level and a shape.
 pub(super) fn runs<K: TriangleKernel>(way: Way) -> bool {
-    way.shape == Shape::One || !K::SCALAR && (!K::FUSED || way.fuses())
+    sweep::runs::<Of<K>>(way)
 }
 
-/// Whether there is code of a kernel for vectors of that type.
-const fn has_code<K: TriangleKernel, V: SimdF32>() -> bool {
-    V::LANES == 1 || !K::SCALAR && (!K::FUSED || V::FUSED)
-}
+/// A kernel as the common loop has it.
+struct Of<K>(PhantomData<K>);
 
-#[inline(always)]
-fn native_rays<K: TriangleKernel, S: Simd>(
-    s: S,
-    triangles: &Triangles,
-    rays: &Rays,
-    hits: &mut Hits,
-) {
-    if const { has_code::<K, S::f32s>() } {
-        rays_in_lanes::<K, S::f32s>(s, triangles, rays, hits);
-    }
-}
+impl<K: TriangleKernel> Sweep for Of<K> {
+    const NAME: &'static str = K::NAME;
+    const FRAMED: bool = K::FRAMED;
+    const FUSED: bool = K::FUSED;
+    const SCALAR: bool = K::SCALAR;
+    type Record = Record;
+    type Block = RecordBlock;
 
-#[inline(always)]
-fn native_triangles<K: TriangleKernel, S: Simd>(
-    s: S,
-    triangles: &Triangles,
-    rays: &Rays,
-    hits: &mut Hits,
-) {
-    if const { has_code::<K, S::f32s>() } {
-        triangles_in_lanes::<K, S::f32s>(s, triangles, rays, hits);
-    }
-}
-
-#[inline(always)]
-fn rays_in_lanes<K: TriangleKernel, V: SimdF32>(
-    s: V::Simd,
-    triangles: &Triangles,
-    rays: &Rays,
-    hits: &mut Hits,
-) {
-    let mut first = 0;
-    while first < rays.len() {
-        let packet = Packet::<V>::load(s, rays, first);
-        let mut query = Closest::new(s, &packet);
-        let records = &triangles.records;
-        if K::FRAMED {
-            match packet.frame(s) {
-                Ok(frame) => every_record::<K, V, _>(s, records, &packet, &frame, &mut query),
-                Err(frame) => every_record::<K, V, _>(s, records, &packet, &frame, &mut query),
-            }
-        } else {
-            every_record::<K, V, _>(s, records, &packet, &packet.mixed(s), &mut query);
-        }
-        query.store(hits, first);
-        first += V::LANES;
-    }
-}
-
-#[inline(always)]
-fn every_record<K: TriangleKernel, V: SimdF32, F: Frame<V>>(
-    s: V::Simd,
-    records: &[Record],
-    packet: &Packet<V>,
-    frame: &F,
-    query: &mut Closest<V>,
-) {
-    for record in records {
+    #[inline(always)]
+    fn one<V: SimdF32, F: Frame<V>>(
+        s: V::Simd,
+        record: &Record,
+        packet: &Packet<V>,
+        frame: &F,
+        query: &mut Closest<V>,
+    ) {
         intersect::<K, V, F, _, _>(s, record, packet, frame, query);
     }
-}
 
-#[inline(always)]
-fn triangles_in_lanes<K: TriangleKernel, V: SimdF32>(
-    s: V::Simd,
-    triangles: &Triangles,
-    rays: &Rays,
-    hits: &mut Hits,
-) {
-    let mut i = 0;
-    while i < rays.len() {
-        let packet = Packet::<V>::splat(s, &rays.get(i));
-        let mut query = Closest::new(s, &packet);
-        if K::FRAMED {
-            // All lanes agree.
-            if let Ok(frame) = packet.frame(s) {
-                every_block::<K, V, _>(s, &triangles.blocks, &packet, &frame, &mut query);
-            }
-        } else {
-            every_block::<K, V, _>(s, &triangles.blocks, &packet, &packet.mixed(s), &mut query);
-        }
-        query.store_least(s, hits, i);
-        i += 1;
+    #[inline(always)]
+    fn lanes<V: SimdF32, F: Frame<V>>(
+        s: V::Simd,
+        block: &RecordBlock,
+        first: usize,
+        packet: &Packet<V>,
+        frame: &F,
+        query: &mut Closest<V>,
+    ) {
+        intersect::<K, V, F, _, _>(s, &BlockLanes::new(block, first), packet, frame, query);
     }
 }
 
-#[inline(always)]
-fn every_block<K: TriangleKernel, V: SimdF32, F: Frame<V>>(
-    s: V::Simd,
-    blocks: &[RecordBlock],
-    packet: &Packet<V>,
-    frame: &F,
-    query: &mut Closest<V>,
-) {
-    for block in blocks {
-        let mut first = 0;
-        while first < RecordBlock::LANES {
-            let records = BlockLanes::new(block, first);
-            intersect::<K, V, F, _, _>(s, &records, packet, frame, query);
-            first += V::LANES;
-        }
-    }
-}
+const _: () = assert!(RecordBlock::LANES == 16);
