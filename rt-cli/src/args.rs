@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{Args as Group, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
-use rt_render::{AccelKind, Exec, Integrator, Level, Method, PacketSize};
+use rt_render::{AccelKind, Builder, Exec, Integrator, Layout, Level, Method, PacketSize, Plan};
 use rt_scene::Light;
 
 use crate::error::Error;
@@ -127,7 +127,7 @@ pub(crate) struct PrecisionArgs {
     /// The triangle test. Only the watertight one leaks nothing.
     #[arg(long, value_enum, value_name = "NAME", default_value_t, conflicts_with = "tolerance")]
     kernel: KernelArg,
-    /// Take the cheapest triangle test that is off by less than this many pixels in this scene, as
+    /// Take the triangle test of fewest operations that is off by less than this many pixels, as
     /// far as can be foretold (rt info SCENE tells) [default: none, which is 0].
     #[arg(long, value_name = "PX", value_parser = tolerance, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
@@ -163,6 +163,38 @@ pub(crate) struct MachineArgs {
     /// What finds the hits.
     #[arg(long, value_enum, value_name = "KIND", default_value_t)]
     accel: AccelArg,
+    #[command(flatten)]
+    build: BuildArgs,
+}
+
+/// How the acceleration structure is built.
+#[derive(Group)]
+pub(crate) struct BuildArgs {
+    /// How the BVH is built.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t)]
+    builder: BuilderArg,
+    /// How the BVH lies in memory. Wide nodes are for rays one by one, whatever packets are asked
+    /// for, and for the watertight triangle test alone: others keep skip.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t)]
+    layout: LayoutArg,
+}
+
+impl BuildArgs {
+    /// Builder and layout, for the default triangle test.
+    pub(crate) fn plan(&self) -> Plan {
+        let builder = match self.builder {
+            BuilderArg::BinnedSah => Builder::BinnedSah,
+            BuilderArg::SweepSah => Builder::SweepSah,
+            BuilderArg::Insertion => Builder::Insertion,
+            BuilderArg::Spatial => Builder::Spatial,
+        };
+        let layout = match self.layout {
+            LayoutArg::Skip => Layout::Skip,
+            LayoutArg::Bvh4 => Layout::Bvh4,
+            LayoutArg::Bvh8 => Layout::Bvh8,
+        };
+        Plan { builder, layout, method: Method::default() }
+    }
 }
 
 impl MachineArgs {
@@ -195,6 +227,11 @@ impl MachineArgs {
             AccelArg::Bvh => AccelKind::Bvh,
             AccelArg::Brute => AccelKind::Brute,
         }
+    }
+
+    /// How it is built, if it is a BVH, for the default triangle test.
+    pub(crate) fn plan(&self) -> Plan {
+        self.build.plan()
     }
 }
 
@@ -246,10 +283,13 @@ pub(crate) struct InfoArgs {
 /// Time the primary rays of scenes at every level, side by side.
 ///
 /// One thread; interleaved rounds; the median of each. The first row is the yardstick: one ray at a
-/// time in plain scalar code on the same BVH. The second is the four-lane code on the scalar level.
+/// time on the same BVH, at the scalar level or, where layouts are compared, in plain scalar code.
+/// The second is the four-lane code on the scalar level.
 #[derive(Group)]
 #[command(after_help = "Examples:\n  \
     rt bench bunny.obj spd:balls\n  \
+    rt bench bunny.obj --builders\n  \
+    rt bench bunny.obj --layouts\n  \
     rt bench spd:balls --json balls.json")]
 pub(crate) struct BenchArgs {
     #[arg(value_name = "SCENE", required = true, help = SCENE)]
@@ -260,6 +300,15 @@ pub(crate) struct BenchArgs {
     /// Compare the triangle tests of --kernel at the best level, instead of levels.
     #[arg(long)]
     pub(crate) kernels: bool,
+    /// Compare the builders of --builder at the best level, instead of levels.
+    #[arg(long, conflicts_with_all = ["kernels", "builder"])]
+    pub(crate) builders: bool,
+    /// Compare the layouts of --layout at the best level, instead of levels: with primary rays, and
+    /// with those that matt surfaces scatter.
+    #[arg(long, conflicts_with_all = ["kernels", "builders", "layout"])]
+    pub(crate) layouts: bool,
+    #[command(flatten)]
+    pub(crate) build: BuildArgs,
     /// How often everything is timed.
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) rounds: u16,
@@ -345,6 +394,30 @@ enum AccelArg {
     Bvh,
     /// Every ray against every primitive.
     Brute,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum BuilderArg {
+    /// The surface area heuristic at the borders of bins.
+    #[default]
+    BinnedSah,
+    /// The surface area heuristic between all neighbours.
+    SweepSah,
+    /// One primitive after the other, of Goldsmith and Salmon.
+    Insertion,
+    /// With boxes cut in two where that pays.
+    Spatial,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum LayoutArg {
+    /// Depth first with skip pointers: for packets.
+    #[default]
+    Skip,
+    /// Four children a node: for single rays.
+    Bvh4,
+    /// Eight children a node: for single rays.
+    Bvh8,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]

@@ -34,6 +34,8 @@ impl Brute {
 }
 
 impl Traverse for Brute {
+    const ANY_PACKET: bool = false;
+
     #[inline(always)]
     fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
         &self,

@@ -21,6 +21,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Who has one ray asks for its closest hit ([`intersect`](Accelerator::intersect)), for the closest
+//! of some primitives ([`intersect_where`](Accelerator::intersect_where)), for whether there is any
+//! ([`occluded`](Accelerator::occluded)), or for [`all_hits`](Accelerator::all_hits); who has a point
+//! asks for the [`closest_point`](Bvh::closest_point). [`Primitives::mesh`] takes vertices and
+//! indices, [`Bvh::refit`] new positions, and a [`Plan`] says what hierarchy to build.
+//!
 //! # Why the answer is one
 //!
 //! What a ray hits is defined by each primitive alone, never by the order of visits:
@@ -41,12 +47,17 @@
 //! unclamped hit can fall before the entry into its own box by any amount, and whether it is found
 //! would depend on what was found before.
 //!
+//! Where an accelerator cuts own boxes, the pieces do not contain them. Why that is enough, and why
+//! the pieces may not be made smaller, stands in
+//! [`spatial_splits`](bvh::build::spatial_splits#why-pieces-are-enough).
+//!
 //! # The range
 //!
 //! Coordinates up to 2^40 in magnitude, and directions whose greatest component is between 2^-20
 //! and 2^20, keep every product of the kernels finite; primitives whose widths, not only lengths, are
 //! greater than 2^-40 keep them from vanishing. A scene outside this range is brought in by an exact power of two before it is built.
 
+mod accelerator;
 mod brute;
 pub mod bvh;
 pub mod camera;
@@ -57,16 +68,18 @@ mod primitives;
 pub mod quadric;
 #[cfg(feature = "reference")]
 pub mod reference;
+mod single;
 pub mod slab;
 mod stats;
 mod sweep;
 mod trace;
 pub mod tri;
 
+pub use accelerator::Accelerator;
 pub use brute::Brute;
-pub use bvh::{BuildError, Bvh, Join, Sequential};
+pub use bvh::{BuildError, Builder, Bvh, ClosestPoint, Join, Layout, Plan, RefitError, Sequential};
 pub use geom::{Hit, Ray};
 pub use packet::{Hits, Rays};
 pub use primitives::Primitives;
 pub use stats::Stats;
-pub use trace::{Accelerator, Exec, PacketSize};
+pub use trace::{Exec, PacketSize};

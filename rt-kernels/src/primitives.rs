@@ -24,9 +24,41 @@ pub struct Primitives {
 const MAX_COORDINATE: f32 = (1u64 << 40) as f32;
 
 /// The greatest number of primitives: a slot has 28 bits in a node.
-const MAX_PRIMITIVES: usize = 1 << 28;
+pub(crate) const MAX_PRIMITIVES: usize = 1 << 28;
 
 impl Primitives {
+    /// The triangles whose corners are these vertices, by number.
+    ///
+    /// # Errors
+    /// If a corner has a number beyond the last vertex.
+    ///
+    /// ```
+    /// # use glam::Vec3;
+    /// # use rt_kernels::Primitives;
+    /// let vertices = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+    /// let tetrahedron = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    /// let scene = Primitives::mesh(&vertices, &tetrahedron)?;
+    /// assert_eq!(scene.triangles[3].corners, [Vec3::X, Vec3::Y, Vec3::Z]);
+    ///
+    /// let error = Primitives::mesh(&vertices, &[[0, 1, 4]]).expect_err("there is no vertex 4");
+    /// assert_eq!(error.to_string(), "primitive 0 has the vertex 4, but there are 4");
+    /// # Ok::<(), rt_kernels::BuildError>(())
+    /// ```
+    pub fn mesh(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<Primitives, BuildError> {
+        let mut scene = Primitives::default();
+        scene.triangles.reserve_exact(triangles.len());
+        for (prim, numbers) in triangles.iter().enumerate() {
+            let mut corners = [Vec3::ZERO; 3];
+            for (corner, &vertex) in corners.iter_mut().zip(numbers) {
+                let found = vertices.get(vertex as usize).copied();
+                let vertices = vertices.len();
+                *corner = found.ok_or(BuildError::NoVertex { prim, vertex, vertices })?;
+            }
+            scene.triangles.push(Triangle { corners });
+        }
+        Ok(scene)
+    }
+
     /// The number of primitives.
     pub fn len(&self) -> usize {
         self.triangles.len() + self.spheres.len()
@@ -35,6 +67,11 @@ impl Primitives {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The number of triangles and of spheres.
+    pub(crate) fn counts(&self) -> [usize; 2] {
+        [self.triangles.len(), self.spheres.len()]
     }
 
     /// The own boxes of all primitives, in their order.
@@ -88,6 +125,8 @@ pub struct SphereRecord {
 pub(crate) struct Store {
     /// The test that the triangles' records are made for.
     method: Method,
+    /// How many triangles and spheres there are: some may have several slots.
+    counts: [usize; 2],
     triangles: Vec<Record>,
     /// The triangles' own boxes, unless the method's kernel has them from the records.
     own_boxes: Vec<Aabb>,
@@ -109,6 +148,7 @@ impl Store {
         let boxes = if method.in_own_box() { 0 } else { primitives.triangles.len() };
         let mut store = Store {
             method,
+            counts: primitives.counts(),
             triangles: Vec::with_capacity(primitives.triangles.len()),
             own_boxes: Vec::with_capacity(boxes),
             spheres: Vec::with_capacity(primitives.spheres.len()),
@@ -130,6 +170,30 @@ impl Store {
         store
     }
 
+    /// Takes new positions of the same primitives.
+    pub(crate) fn replace(&mut self, primitives: &Primitives) {
+        let order: Vec<u32> = (0..self.slots()).map(|slot| self.prim(slot)).collect();
+        *self = Store::reordered(primitives, self.method, order.into_iter());
+    }
+
+    /// The number of triangles and of spheres.
+    pub(crate) fn counts(&self) -> [usize; 2] {
+        self.counts
+    }
+
+    /// The primitive in a slot.
+    pub(crate) fn prim(&self, slot: usize) -> u32 {
+        match self.triangles.get(slot) {
+            Some(triangle) => triangle.number(),
+            None => self.spheres[slot - self.triangles.len()].prim,
+        }
+    }
+
+    /// The number of slots: a primitive may have several.
+    pub(crate) fn slots(&self) -> usize {
+        self.triangles.len() + self.spheres.len()
+    }
+
     /// The slots of all triangles.
     pub(crate) fn triangle_slots(&self) -> Range<usize> {
         0..self.triangles.len()
@@ -137,7 +201,7 @@ impl Store {
 
     /// The slots of all spheres.
     pub(crate) fn sphere_slots(&self) -> Range<usize> {
-        self.triangles.len()..self.triangles.len() + self.spheres.len()
+        self.triangles.len()..self.slots()
     }
 
     /// The test that the triangles' records are made for.

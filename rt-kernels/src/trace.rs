@@ -1,12 +1,14 @@
-//! From a batch of rays to its hits: the one place where a level and a packet size are chosen.
+//! From a batch of rays to its hits, packet by packet: where a level and a packet size are chosen.
 
 use std::marker::PhantomData;
 
-use simd4::{Lanes, Level, LevelError, Simd, SimdF32, dispatch, scalar};
+use simd4::{Level, LevelError, Simd, SimdF32, dispatch, scalar};
 
+use crate::accelerator::Visitor;
+use crate::bvh::layout::SkipArray;
 use crate::packet::{Any, Closest, Frame, Hits, Packet, Query, Rays};
 use crate::tri::{Method, TriangleKernel, with_kernel};
-use crate::{Brute, Bvh, Stats};
+use crate::{Accelerator, Brute, Ray, Stats, single};
 
 /// How many rays a packet has. The hits are the same for all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,7 +16,8 @@ pub enum PacketSize {
     /// As many as one register of the level has lanes.
     #[default]
     Native,
-    /// One ray at a time, in plain scalar code, whatever the level.
+    /// One ray at a time: over [wide nodes](crate::Layout) in all lanes of a vector, elsewhere in
+    /// plain scalar code, whatever the level.
     Single,
     /// Four rays.
     Four,
@@ -45,14 +48,11 @@ impl Exec {
         Exec { level, packet: PacketSize::Native }
     }
 
-    /// What it comes to with a triangle test: for some there are only single rays and registers.
-    #[must_use]
-    pub fn with(self, method: Method) -> Exec {
-        let packet = match self.packet {
-            PacketSize::Single => PacketSize::Single,
-            asked if with_kernel!(method, K => K::ANY_PACKET) => asked,
-            _ => PacketSize::Native,
-        };
+    /// The nearest to it of what there is code for, where it is not for all: single rays, and
+    /// registers of levels that have some.
+    fn limited(self) -> Exec {
+        let single = self.packet == PacketSize::Single || matches!(self.level, Level::Scalar(_));
+        let packet = if single { PacketSize::Single } else { PacketSize::Native };
         Exec { packet, ..self }
     }
 
@@ -67,22 +67,11 @@ impl Exec {
     }
 }
 
-/// What finds hits: an acceleration structure, or none.
-pub trait Accelerator: Send + Sync {
-    /// Finds the closest hit of every ray. `hits` is made as long as `rays`; work is added to
-    /// `stats`.
-    fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats);
-
-    /// Finds for every ray whether it hits anything within its interval. `found` is made as long
-    /// as `rays`; work is added to `stats`.
-    fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats);
-
-    /// The memory that the structure and its copy of the primitives take.
-    fn bytes(&self) -> usize;
-}
-
 /// The traversal of one packet, which makes an [`Accelerator`].
 pub(crate) trait Traverse: Send + Sync {
+    /// Whether there is code for packets of any size, if the triangle test has it too.
+    const ANY_PACKET: bool;
+
     /// Hands every primitive that the packet may hit to its kernel, triangles to `K`: that of the
     /// [method](Traverse::method).
     fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
@@ -103,23 +92,25 @@ pub(crate) trait Traverse: Send + Sync {
 
 /// A [`Traverse`] is an [`Accelerator`] at every level and packet size.
 macro_rules! accelerator {
-    ($Type:ty) => {
+    ($Type:ty, any: $any:ident) => {
         impl Accelerator for $Type {
             fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats) {
-                hits.resize(rays.len());
-                let method = Traverse::method(self);
-                with_kernel!(method, K => {
-                    run(exec.with(method), rays, &mut ClosestOf::<_, K>(self, hits, PhantomData), stats);
-                });
+                closest(self, exec, rays, hits, stats);
             }
 
             fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats) {
-                found.clear();
-                found.resize(rays.len(), false);
-                let method = Traverse::method(self);
-                with_kernel!(method, K => {
-                    run(exec.with(method), rays, &mut AnyOf::<_, K>(self, found, PhantomData), stats);
-                });
+                $any(self, exec, rays, found, stats);
+            }
+
+            fn visit(&self, ray: &Ray, visitor: Visitor<'_>) {
+                single::visit(self, ray, visitor);
+            }
+
+            fn exec(&self, asked: Exec) -> Exec {
+                with_kernel!(Traverse::method(self), K => match any_packet::<Self, K>() {
+                    true => asked,
+                    false => asked.limited(),
+                })
             }
 
             fn bytes(&self) -> usize {
@@ -129,12 +120,58 @@ macro_rules! accelerator {
     };
 }
 
-accelerator!(Brute);
-accelerator!(Bvh);
+accelerator!(Brute, any: any_by_closest);
+accelerator!(SkipArray, any: any);
+
+fn closest<T: Traverse + Accelerator>(
+    traverse: &T,
+    exec: Exec,
+    rays: &Rays,
+    hits: &mut Hits,
+    stats: &mut Stats,
+) {
+    hits.resize(rays.len());
+    let exec = traverse.exec(exec);
+    with_kernel!(traverse.method(), K => {
+        run(exec, rays, &mut ClosestOf::<_, K>(traverse, hits, PhantomData), stats);
+    });
+}
+
+fn any<T: Traverse + Accelerator>(
+    traverse: &T,
+    exec: Exec,
+    rays: &Rays,
+    found: &mut Vec<bool>,
+    stats: &mut Stats,
+) {
+    found.clear();
+    found.resize(rays.len(), false);
+    let exec = traverse.exec(exec);
+    with_kernel!(traverse.method(), K => {
+        run(exec, rays, &mut AnyOf::<_, K>(traverse, found, PhantomData), stats);
+    });
+}
+
+/// Without code of its own, for whom speed does not matter.
+fn any_by_closest<T: Traverse + Accelerator>(
+    traverse: &T,
+    exec: Exec,
+    rays: &Rays,
+    found: &mut Vec<bool>,
+    stats: &mut Stats,
+) {
+    let mut hits = Hits::new();
+    closest(traverse, exec, rays, &mut hits, stats);
+    hits.found(found);
+}
+
+const fn any_packet<T: Traverse, K: TriangleKernel>() -> bool {
+    T::ANY_PACKET && K::ANY_PACKET
+}
 
 /// What is done with each packet of a batch.
 trait Batch {
-    /// See [`TriangleKernel::ANY_PACKET`].
+    /// Whether there is code for packets of any size.
     const ANY_PACKET: bool;
 
     fn packet<V: SimdF32>(
@@ -149,7 +186,7 @@ trait Batch {
 struct ClosestOf<'a, T, K>(&'a T, &'a mut Hits, PhantomData<K>);
 
 impl<T: Traverse, K: TriangleKernel> Batch for ClosestOf<'_, T, K> {
-    const ANY_PACKET: bool = K::ANY_PACKET;
+    const ANY_PACKET: bool = any_packet::<T, K>();
 
     #[inline(always)]
     fn packet<V: SimdF32>(
@@ -168,7 +205,7 @@ impl<T: Traverse, K: TriangleKernel> Batch for ClosestOf<'_, T, K> {
 struct AnyOf<'a, T, K>(&'a T, &'a mut [bool], PhantomData<K>);
 
 impl<T: Traverse, K: TriangleKernel> Batch for AnyOf<'_, T, K> {
-    const ANY_PACKET: bool = K::ANY_PACKET;
+    const ANY_PACKET: bool = any_packet::<T, K>();
 
     #[inline(always)]
     fn packet<V: SimdF32>(
@@ -185,7 +222,7 @@ impl<T: Traverse, K: TriangleKernel> Batch for AnyOf<'_, T, K> {
 }
 
 #[inline(always)]
-fn in_frame<K: TriangleKernel, V: SimdF32, T: Traverse, Q: Query<V>>(
+pub(crate) fn in_frame<K: TriangleKernel, V: SimdF32, T: Traverse, Q: Query<V>>(
     traverse: &T,
     s: V::Simd,
     packet: &Packet<V>,
@@ -214,28 +251,28 @@ fn run<B: Batch>(exec: Exec, rays: &Rays, batch: &mut B, stats: &mut Stats) {
 
 #[inline(always)]
 fn native<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
-    if const { lanes::<S>() != 4 && lanes::<S>() != 8 } {
+    if const { S::LANES != 4 && S::LANES != 8 } {
         packets::<S::f32s>(s, rays, batch, stats);
     }
 }
 
 #[inline(always)]
 fn four<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) {
-    if const { B::ANY_PACKET || lanes::<S>() == 4 } {
+    if const { B::ANY_PACKET || is_register::<S>(4) } {
         packets::<S::f32x4>(s, rays, batch, stats);
     }
 }
 
 #[inline(always)]
 fn eight<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) {
-    if const { B::ANY_PACKET || lanes::<S>() == 8 } {
+    if const { B::ANY_PACKET || is_register::<S>(8) } {
         packets::<S::f32x8>(s, rays, batch, stats);
     }
 }
 
-/// How many lanes a register has.
-const fn lanes<S: Simd>() -> usize {
-    <S::f32s as Lanes>::LANES
+/// Whether the level has registers, and of that many lanes.
+const fn is_register<S: Simd>(lanes: usize) -> bool {
+    S::LANES == lanes && !S::EMULATED
 }
 
 #[inline(always)]

@@ -75,6 +75,9 @@ pub trait Simd: Copy + Send + Sync + core::fmt::Debug + sealed::Sealed + 'static
     /// The number of lanes of [`Simd::f32s`].
     const LANES: usize = <Self::f32s as Lanes>::LANES;
 
+    /// Whether lanes are plain scalar code, in no register of its own.
+    const EMULATED: bool = false;
+
     /// The level that this token proves.
     fn level(self) -> Level;
 

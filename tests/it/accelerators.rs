@@ -4,13 +4,13 @@ use glam::Vec3;
 use proptest::prelude::*;
 use rt_kernels::geom::Triangle;
 use rt_kernels::tri::Method;
-use rt_kernels::{Accelerator, Brute, Bvh, Exec, Hits, PacketSize, Primitives, Ray, Rays};
-use rt_kernels::{Sequential, Stats};
+use rt_kernels::{Accelerator, Brute, Builder, Bvh, Exec, Hits, Layout, PacketSize, Primitives};
+use rt_kernels::{Ray, Rays, Sequential, Stats};
 use rt_tests::mesh::Mesh;
 use rt_tests::oracle::entry;
 use rt_tests::random::{Random, power};
 use rt_tests::strategies::{RayPlan, config, is_in_range, is_valid, ray, scene};
-use rt_tests::trace::{Bits, any as found_any, bits, closest, closest_bits, ways};
+use rt_tests::trace::{Bits, any as found_any, bits, closest, closest_bits, every_plan, ways};
 use rt_tests::{aim, rays};
 use simd4::Level;
 
@@ -20,7 +20,12 @@ fn plainest() -> Exec {
     Exec { level, packet: PacketSize::Single }
 }
 
-/// Checks closest and any of both accelerators, all ways and with every triangle test, against the
+/// The most unlike it.
+fn widest() -> Exec {
+    Exec { packet: PacketSize::Eight, ..Exec::best().expect("a level") }
+}
+
+/// Checks closest and any of all accelerators, all ways and with every triangle test, against the
 /// plainest, and returns that with the default test.
 fn one_answer(scene: &Primitives, rays: &Rays) -> Vec<Option<rt_kernels::Hit>> {
     let mut methods = Method::ALL.into_iter();
@@ -36,13 +41,24 @@ fn one_answer_with(
     rays: &Rays,
 ) -> Vec<Option<rt_kernels::Hit>> {
     let brute = Brute::build_with(scene, method).expect("a scene in range");
-    let bvh = Bvh::build_with(scene, method, &Sequential).expect("a scene in range");
     let hits = closest(&brute, plainest(), rays);
     let want: Vec<Bits> = hits.iter().map(|hit| hit.map(bits)).collect();
     let name = method.name();
     for exec in ways() {
         same(&want, &format!("{name}, brute force"), &brute, exec, rays);
-        same(&want, &format!("{name}, the hierarchy"), &bvh, exec, rays);
+    }
+    for plan in every_plan(method) {
+        let bvh = Bvh::build_with(scene, plan, &Sequential).expect("a scene in range");
+        // What a level and a packet size change does not depend on the builder.
+        let execs = match (plan.builder == Builder::default(), plan.layout) {
+            (true, Layout::Skip) => ways(),
+            (true, _) => Level::available().map(Exec::at).collect(),
+            _ => vec![plainest(), widest()],
+        };
+        for exec in execs {
+            let (builder, layout) = (plan.builder.name(), plan.layout.name());
+            same(&want, &format!("{name}, {builder}, {layout}"), &bvh, exec, rays);
+        }
     }
     hits
 }

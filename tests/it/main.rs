@@ -2,10 +2,15 @@
 
 mod accelerators;
 mod build;
+mod builders;
+mod closest_point;
+mod layouts;
 mod padding;
 mod pictures;
 mod precision;
 mod range;
+mod refit;
+mod single;
 mod sphere;
 mod triangle;
 mod watertight;

@@ -4,7 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use glam::Vec3;
-use rt_render::{AccelKind, Exec, Film, Integrator, Job, Silent, World, fitted_view, render};
+use rt_render::{
+    AccelKind, Builder, Exec, Film, Integrator, Job, Layout, Level, Plan, Silent, World,
+    fitted_view, render,
+};
 use rt_scene::Scene;
 use rt_tests::hash::fnv1a;
 use rt_tests::scenes::{bumpy, room};
@@ -74,6 +77,46 @@ fn every_way_makes_the_same_picture() {
             for threads in [2, 3] {
                 same(&bvh, best, threads);
                 same(&others[0], best, threads);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_builder_makes_the_same_picture() {
+    let exec = Exec::best().expect("a level");
+    for scene in scenes() {
+        let want = world(&scene, AccelKind::Brute, 1);
+        let want = picture(&want, &job(&want, &scene, Integrator::Whitted, exec));
+        for builder in Builder::ALL {
+            for threads in [1, 2] {
+                let plan = Plan { builder, ..Plan::default() };
+                let world = World::build_with(scene.clone(), AccelKind::Bvh, plan, threads)
+                    .expect("a scene that can be rendered");
+                let job = job(&world, &scene, Integrator::Whitted, exec);
+                assert_eq!(world.builder(), Some(builder));
+                let same = picture(&world, &job) == want;
+                assert!(same, "{} differs: {builder:?}, {threads} threads", scene.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_layout_makes_the_same_picture() {
+    let exec = Exec::best().expect("a level");
+    for scene in scenes() {
+        let want = world(&scene, AccelKind::Brute, 1);
+        let want = picture(&want, &job(&want, &scene, Integrator::Whitted, exec));
+        for layout in Layout::ALL {
+            let plan = Plan { layout, ..Plan::default() };
+            let world = World::build_with(scene.clone(), AccelKind::Bvh, plan, 1)
+                .expect("a scene that can be rendered");
+            assert_eq!(world.layout(), layout.name());
+            for level in Level::available() {
+                let job = job(&world, &scene, Integrator::Whitted, Exec::at(level));
+                let same = picture(&world, &job) == want;
+                assert!(same, "{} differs: {}, {level}", scene.name, layout.name());
             }
         }
     }

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, Vec3};
 use rt_kernels::camera::Pinhole;
 use rt_kernels::geom::Triangle;
 use rt_kernels::tri::Method;
-use rt_kernels::{Brute, Bvh, Exec, Primitives, Ray, Rays, Sequential};
+use rt_kernels::{Brute, Bvh, Exec, Plan, Primitives, Ray, Rays, Sequential};
 use rt_render::precision::{Choice, Facts, Prediction, choose, predict};
 use rt_render::{bounds, fitted_view};
 use rt_scene::{Scene, View};
@@ -155,7 +155,7 @@ fn scenes_differ_in_what_they_need() {
         assert_eq!(pick(&scene, 0.0), Method::Watertight, "{}", scene.name);
         assert_ne!(pick(&scene, 1e9), Method::Watertight, "{}", scene.name);
     }
-    // The more is allowed, the cheaper it gets, and never dearer.
+    // The more is allowed, the lighter it gets, and never heavier.
     let rank = |choice: Choice| {
         choice.predictions.iter().position(|p| p.method == choice.method).expect("one of them")
     };
@@ -250,7 +250,8 @@ fn off(scene: &Scene, method: Method) -> (usize, f64) {
     let pixels = (0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y)));
     let rays: Rays = pixels.map(|(x, y)| camera.ray(x as f32 + 0.5, y as f32 + 0.5)).collect();
     let find = |method| {
-        let bvh = Bvh::build_with(&primitives, method, &Sequential).expect("in range");
+        let bvh = Bvh::build_with(&primitives, Plan { method, ..Plan::default() }, &Sequential)
+            .expect("in range");
         closest(&bvh, Exec::best().expect("a level"), &rays)
     };
     let eye = Eye::new(&view);

@@ -4,7 +4,7 @@
 //! watertight leaks one ray in twenty: a control shows that these rays find such leaks.
 
 use glam::Vec3;
-use rt_kernels::{Bvh, Exec, Ray, Rays, Sequential};
+use rt_kernels::{Builder, Bvh, Exec, Layout, Plan, Ray, Rays, Sequential};
 use rt_tests::mesh::Mesh;
 use rt_tests::oracle::{ROUNDOFF, moller_trumbore};
 use rt_tests::random::Random;
@@ -180,4 +180,28 @@ fn spiky_ball() {
 #[test]
 fn spiky_ball_far_away() {
     vessel(1.0, Vec3::new(0.0, 1000.0, -1e5), 0.05).million("spiky, far");
+}
+
+#[test]
+fn spiky_ball_of_every_other_builder() {
+    let mut ball = vessel(1.0, Vec3::ZERO, 0.05);
+    let scene = ball.mesh.primitives();
+    let scattered = ball.scattered(rays(200_000), &mut Random::new(13));
+    for builder in &Builder::ALL[1..] {
+        let plan = Plan { builder: *builder, ..Plan::default() };
+        ball.bvh = Bvh::build_with(&scene, plan, &Sequential).expect("in range");
+        ball.holds(builder.name(), &scattered);
+    }
+}
+
+#[test]
+fn spiky_ball_of_wide_nodes() {
+    let mut ball = vessel(1.0, Vec3::ZERO, 0.05);
+    let scene = ball.mesh.primitives();
+    let scattered = ball.scattered(rays(200_000), &mut Random::new(14));
+    for layout in [Layout::Bvh4, Layout::Bvh8] {
+        let plan = Plan { layout, ..Plan::default() };
+        ball.bvh = Bvh::build_with(&scene, plan, &Sequential).expect("in range");
+        ball.holds(layout.name(), &scattered);
+    }
 }

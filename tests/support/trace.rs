@@ -1,6 +1,7 @@
 //! Running the kernels every way there is.
 
-use rt_kernels::{Accelerator, Exec, Hit, Hits, PacketSize, Rays, Stats};
+use rt_kernels::tri::Method;
+use rt_kernels::{Accelerator, Builder, Exec, Hit, Hits, Layout, PacketSize, Plan, Rays, Stats};
 use simd4::Level;
 
 /// Every level of this machine with every packet size. (A single ray goes the same way at every
@@ -11,6 +12,14 @@ pub fn ways() -> Vec<Exec> {
     let lanes = Level::available()
         .flat_map(|level| packets.into_iter().map(move |packet| Exec { level, packet }));
     [Exec { level: first, packet: PacketSize::Single }].into_iter().chain(lanes).collect()
+}
+
+/// Every hierarchy that there is for a triangle test.
+pub fn every_plan(method: Method) -> Vec<Plan> {
+    let plans = Builder::ALL
+        .into_iter()
+        .flat_map(|builder| Layout::ALL.map(|layout| Plan { builder, layout, method }));
+    plans.filter(|plan| plan.layout() == plan.layout).collect()
 }
 
 /// What a ray hit, bit by bit: t, primitive, u, v.

@@ -13,8 +13,8 @@ use Tests::{Brief, Conformance, Core, Everything, Workspace};
 use Tier::{EveryRun, OnDemand};
 
 /// How many cases proptest tries, and so how many rays the other tests trace, wherever programs
-/// run slowly or repeat what has been run in full: an eighth.
-pub(crate) const FEWER_CASES: &str = "32";
+/// run slowly or repeat what has been run in full: a sixteenth.
+pub(crate) const FEWER_CASES: &str = "16";
 
 /// The table.
 #[rustfmt::skip]
@@ -44,10 +44,10 @@ pub(crate) static TARGETS: &[Target] = &[
     target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Core,        Some(Core),      Unix,          EveryRun),
     // Without a level of their own: the definition holds for either order of bytes and for every
     // way to make vectors of scalar code.
-    target("armv7",         ARMV7,       qemu("arm", "max"),                 These(&["scalar"]),                          Core,        None,            Linux,         OnDemand),
-    target("powerpc64le",   POWERPC64LE, qemu("ppc64le", "power9"),          These(&["scalar"]),                          Core,        None,            Linux,         OnDemand),
-    target("riscv64gc",     RISCV64GC,   qemu("riscv64", "rv64"),            These(&["scalar"]),                          Core,        None,            Linux,         OnDemand),
-    target("s390x",         S390X,       qemu("s390x", "max"),               These(&["scalar"]),                          Core,        None,            Linux,         OnDemand),
+    target("armv7",         ARMV7,       qemu("arm", "max"),                 These(&["scalar"]),                          Brief,       None,            Linux,         OnDemand),
+    target("powerpc64le",   POWERPC64LE, qemu("ppc64le", "power9"),          These(&["scalar"]),                          Brief,       None,            Linux,         OnDemand),
+    target("riscv64gc",     RISCV64GC,   qemu("riscv64", "rv64"),            These(&["scalar"]),                          Brief,       None,            Linux,         OnDemand),
+    target("s390x",         S390X,       qemu("s390x", "max"),               These(&["scalar"]),                          Brief,       None,            Linux,         OnDemand),
     // What no CPU shows: undefined behaviour.
     target("miri",          MIRI_X86_64, Miri,                               These(&["scalar", "sse2"]),                  Conformance, None,            Any,           OnDemand),
     target("miri-avx2",     MIRI_AVX2,   Miri,                               These(&["scalar", "sse2", "sse4.1", "avx2"]), Conformance, None,           Any,           OnDemand),
@@ -156,7 +156,8 @@ pub(crate) enum Tests {
     Workspace,
     /// Conformance, kernels and golden pictures: the packages [`CORE`].
     Core,
-    /// The same without [`LONG`]: for machines that share their programs with one that ran them.
+    /// The same without [`LONG`]: where programs run slowly, and on machines that share them with
+    /// one that ran all.
     Brief,
     /// Every operation against its definition.
     Conformance,
@@ -166,9 +167,11 @@ pub(crate) enum Tests {
 pub(crate) const CORE: [&str; 3] = ["simd4", "rt-kernels", "rt-tests"];
 
 /// The tests of [`CORE`] that take an emulator a minute and more.
-pub(crate) const LONG: [&str; 5] = [
+pub(crate) const LONG: [&str; 7] = [
     "build::pathological_scenes",
+    "builders::threads_do_not_change",
     "pictures::every_way",
+    "precision::pictures_are_within",
     "watertight::ball",
     "watertight::spiky_ball",
     "watertight::tiny_ball",

@@ -16,13 +16,15 @@ pub(crate) struct Programs {
     pub(crate) tests: Vec<TestProgram>,
     /// The example of `simd4` that lists the levels.
     levels: Option<PathBuf>,
+    /// All others, which tests may run.
+    pub(crate) others: Vec<PathBuf>,
 }
 
 /// A program made of tests.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct TestProgram {
     /// The folder of its package, in which it is to run.
-    folder: PathBuf,
+    pub(crate) folder: PathBuf,
     /// Itself.
     pub(crate) file: PathBuf,
 }
@@ -66,6 +68,8 @@ impl Programs {
                 programs.tests.push(TestProgram { folder, file });
             } else if message["target"]["name"] == "levels" {
                 programs.levels = Some(file);
+            } else {
+                programs.others.push(file);
             }
         }
         programs

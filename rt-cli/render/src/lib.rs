@@ -2,7 +2,7 @@
 //!
 //! A [`World`] is a scene made ready to trace; a [`Job`] says what picture of it is wanted;
 //! [`render`] makes the [`Film`] and reports what it took. The pixels are the same for every
-//! [`AccelKind`], level, packet size and number of threads.
+//! [`AccelKind`], [`Plan`] but for its triangle test, level, packet size and number of threads.
 #![forbid(unsafe_code)]
 
 mod exec;
@@ -22,6 +22,6 @@ pub use integrate::{Integrator, RayKind};
 pub use job::{Job, RenderError, check_size};
 pub use rt_kernels::geom::Aabb;
 pub use rt_kernels::tri::Method;
-pub use rt_kernels::{Exec, PacketSize};
+pub use rt_kernels::{Builder, Exec, Layout, PacketSize, Plan};
 pub use simd4::{Level, LevelError};
 pub use world::{AccelKind, World, bounds};

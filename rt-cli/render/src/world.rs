@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use glam::Vec3;
 use rt_kernels::geom::{Aabb, Sphere, Triangle};
 use rt_kernels::tri::Method;
-use rt_kernels::{Accelerator, Brute, BuildError, Bvh, Primitives};
+use rt_kernels::{Accelerator, Brute, BuildError, Builder, Bvh, Exec, Plan, Primitives};
 use rt_scene::Scene;
 
 use crate::exec::{RayonJoin, on_threads};
@@ -29,14 +29,6 @@ impl AccelKind {
             AccelKind::Brute => "brute",
         }
     }
-
-    /// How it lies in memory.
-    pub fn layout(self) -> &'static str {
-        match self {
-            AccelKind::Bvh => "skip",
-            AccelKind::Brute => "list",
-        }
-    }
 }
 
 /// A scene and its acceleration structure.
@@ -47,7 +39,7 @@ pub struct World {
     /// The power of two that brings the coordinates into the range of the kernels.
     pub(crate) scale: f32,
     kind: AccelKind,
-    method: Method,
+    plan: Plan,
     bounds: Aabb,
     build_time: Duration,
 }
@@ -58,18 +50,19 @@ impl World {
     /// # Errors
     /// If the scene is empty, or the kernels refuse it.
     pub fn build(scene: Scene, kind: AccelKind, threads: usize) -> Result<World, RenderError> {
-        World::build_with(scene, kind, Method::default(), threads)
+        World::build_with(scene, kind, Plan::default(), threads)
     }
 
-    /// Builds the acceleration structure for that triangle test, on that many threads. Only for
-    /// the default is the picture what the scene says to the last edge.
+    /// Builds the acceleration structure by that plan, as far as there is a choice, on that many
+    /// threads. Only for the default triangle test is the picture what the scene says to the last
+    /// edge.
     ///
     /// # Errors
     /// As [`build`](World::build).
     pub fn build_with(
         mut scene: Scene,
         kind: AccelKind,
-        method: Method,
+        plan: Plan,
         threads: usize,
     ) -> Result<World, RenderError> {
         if scene.mesh.triangles.is_empty() && scene.spheres.is_empty() {
@@ -89,11 +82,12 @@ impl World {
         let primitives = primitives(&scene);
         let accel = on_threads(threads, || -> Result<Box<dyn Accelerator>, BuildError> {
             Ok(match kind {
-                AccelKind::Bvh => Box::new(Bvh::build_with(&primitives, method, &RayonJoin)?),
-                AccelKind::Brute => Box::new(Brute::build_with(&primitives, method)?),
+                AccelKind::Bvh => Box::new(Bvh::build_with(&primitives, plan, &RayonJoin)?),
+                AccelKind::Brute => Box::new(Brute::build_with(&primitives, plan.method)?),
             })
         })??;
-        Ok(World { scene, accel, scale, kind, method, bounds, build_time: start.elapsed() })
+        let build_time = start.elapsed();
+        Ok(World { scene, accel, scale, kind, plan, bounds, build_time })
     }
 
     /// What finds the hits.
@@ -101,9 +95,30 @@ impl World {
         self.kind
     }
 
+    /// What built it; `None` where nothing is built.
+    pub fn builder(&self) -> Option<Builder> {
+        match self.kind {
+            AccelKind::Bvh => Some(self.plan.builder),
+            AccelKind::Brute => None,
+        }
+    }
+
+    /// How the acceleration structure lies in memory.
+    pub fn layout(&self) -> &'static str {
+        match self.kind {
+            AccelKind::Bvh => self.plan.layout().name(),
+            AccelKind::Brute => "list",
+        }
+    }
+
     /// The triangle test.
     pub fn method(&self) -> Method {
-        self.method
+        self.plan.method
+    }
+
+    /// What a choice of level and packets comes to in it.
+    pub fn exec(&self, asked: Exec) -> Exec {
+        self.accel.exec(asked)
     }
 
     /// The box around all primitives, in the units of the scene.

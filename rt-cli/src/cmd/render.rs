@@ -1,7 +1,7 @@
 //! `rt render`.
 
 use glam::Vec3;
-use rt_render::{Aabb, Job, World, check_size, fitted_view, precision};
+use rt_render::{Aabb, Job, Plan, World, check_size, fitted_view, precision};
 use rt_scene::View;
 
 use crate::args::{PictureArgs, RenderArgs};
@@ -48,7 +48,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
         Some(pixels) => Kernel::Chosen(precision::choose(&scene, &view, size, pixels), pixels),
         None => Kernel::Asked(args.precision.method()),
     };
-    let world = World::build_with(scene, args.machine.accel(), kernel.method(), threads)?;
+    let plan = Plan { method: kernel.method(), ..args.machine.plan() };
+    let world = World::build_with(scene, args.machine.accel(), plan, threads)?;
 
     if own_view.is_none() && !args.quiet {
         ui::say(&format!("camera: {}", report::flags(&view)));
@@ -61,7 +62,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
         integrator: args.shading.integrator.into(),
         depth: args.shading.depth,
         shadows: !args.shading.no_shadows,
-        exec: exec.with(kernel.method()),
+        exec: world.exec(exec),
         threads,
     };
     let progress = ui::Progress::new(args.progress, args.quiet);

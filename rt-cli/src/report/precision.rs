@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 pub(crate) enum Kernel {
     /// It was asked for, or is the default.
     Asked(Method),
-    /// It is the cheapest that stays under so many pixels.
+    /// It is the lightest that stays under so many pixels.
     Chosen(Choice, f64),
 }
 
@@ -29,7 +29,7 @@ impl Kernel {
             Kernel::Chosen(choice, tolerance) => {
                 let pixels = digits(choice.prediction().pixels);
                 let why = match choice.method {
-                    Method::Watertight => format!("no cheaper one stays under {tolerance} px"),
+                    Method::Watertight => format!("no lighter one stays under {tolerance} px"),
                     _ => format!("off by at most {pixels} px, tolerance {tolerance} px"),
                 };
                 format!("{name} kernel ({why})")

@@ -6,19 +6,21 @@ use crate::support::{Scratch, keys, levels};
 
 const QUICK: [&str; 4] = ["-s", "16x16", "--rounds", "1"];
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 15] = [
     "what",
     "scene",
     "kind",
     "level",
     "kernel",
     "accel",
+    "builder",
     "layout",
     "packet",
     "ns",
     "mrays_per_s",
     "nodes_per_ray",
     "tests_per_ray",
+    "build_ms",
     "bytes",
 ];
 
@@ -34,7 +36,7 @@ fn rows_are_one_ray_and_then_every_level() {
     assert_eq!(rows.len(), 2 * (levels.len() + 1));
     for row in rows {
         assert_eq!(keys(row), KEYS);
-        for key in ["ns", "mrays_per_s", "nodes_per_ray", "tests_per_ray", "bytes"] {
+        for key in ["ns", "mrays_per_s", "nodes_per_ray", "tests_per_ray", "build_ms", "bytes"] {
             assert!(row[key].as_f64().unwrap() > 0.0, "{key} in {row}");
         }
     }
@@ -99,5 +101,63 @@ fn kernels_are_told_side_by_side() {
     for (line, kernel) in lines[1..].iter().zip(&kernels) {
         let words: Vec<_> = line.split_whitespace().collect();
         assert_eq!(words[..2], ["room.obj", kernel]);
+    }
+}
+
+#[test]
+fn builders_are_told_side_by_side() {
+    let scratch = Scratch::with_room();
+    let args = [&["bench", "room.obj", "--builders", "--json", "b.json"], &QUICK[..]].concat();
+    let table = scratch.rt(&args).exits(0).text();
+    let json: Value = serde_json::from_slice(&scratch.bytes("b.json")).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    let builders: Vec<_> = rows.iter().map(|row| row["builder"].as_str().unwrap()).collect();
+    assert_eq!(builders, ["binned-sah", "sweep-sah", "insertion", "spatial"]);
+    let lines: Vec<_> = table.lines().collect();
+    let width = lines[0].chars().count();
+    assert!(width <= 80 && lines.iter().all(|line| line.chars().count() == width), "{table}");
+    for (line, builder) in lines[1..].iter().zip(&builders) {
+        let words: Vec<_> = line.split_whitespace().collect();
+        assert_eq!(words[..2], ["room.obj", builder]);
+    }
+}
+
+/// With each kind of rays the skip array, ray by ray and in packets, and then wide nodes.
+#[test]
+fn layouts_are_told_side_by_side() {
+    let scratch = Scratch::with_room();
+    let args = [&["bench", "room.obj", "--layouts", "--json", "b.json"], &QUICK[..]].concat();
+    let table = scratch.rt(&args).exits(0).text();
+    let json: Value = serde_json::from_slice(&scratch.bytes("b.json")).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    let keys = ["kind", "layout", "packet"];
+    let told: Vec<_> = rows.iter().map(|row| keys.map(|key| row[key].as_str().unwrap())).collect();
+    for (kind, told) in ["primary", "diffuse"].iter().zip(told.chunks(4)) {
+        assert_eq!(told[0], [kind, "skip", "1"]);
+        assert_eq!(told[1][..2], [*kind, "skip"]);
+        assert!(told[1][2] != "1", "{table}");
+        assert_eq!(told[2..], [[kind, "bvh4", "1"], [kind, "bvh8", "1"]]);
+    }
+    let lines: Vec<_> = table.lines().collect();
+    assert_eq!((lines.len(), rows.len()), (9, 8), "{table}");
+    let width = lines[0].chars().count();
+    assert!(width <= 80 && lines.iter().all(|line| line.chars().count() == width), "{table}");
+    for (line, told) in lines[1..].iter().zip(told) {
+        let words: Vec<_> = line.split_whitespace().collect();
+        assert_eq!(words[..4], ["room.obj", told[0], told[1], told[2]]);
+        assert_eq!(words.len(), 9, "{line}");
+    }
+}
+
+#[test]
+fn builder_and_layout_can_be_chosen() {
+    let scratch = Scratch::with_room();
+    for (flag, key, value) in
+        [("--builder", "builder", "insertion"), ("--layout", "layout", "bvh8")]
+    {
+        let args = ["bench", "room.obj", flag, value, "--json", "-"];
+        let json = scratch.rt(&[&args, &QUICK[..]].concat()).exits(0).json();
+        let rows = json["rows"].as_array().unwrap();
+        assert!(rows.len() > 1 && rows.iter().all(|row| row[key] == value), "{json}");
     }
 }

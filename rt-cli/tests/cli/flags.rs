@@ -43,6 +43,8 @@ fn help_fits_a_terminal_and_names_groups_and_defaults() {
         ("--packet", "native"),
         ("--threads", "one a core"),
         ("--accel", "bvh"),
+        ("--builder", "binned-sah"),
+        ("--layout", "skip"),
         ("--progress", "auto"),
     ] {
         let from = flowing.find(&format!("{flag} <")).expect(flag);
@@ -90,6 +92,8 @@ fn wrong_usage_is_exit_code_2_and_does_nothing() {
         "render room.obj -o a.png -j 0",
         "render room.obj -o a.png -j 70000",
         "render room.obj -o a.png --accel octree",
+        "render room.obj -o a.png --builder best",
+        "render room.obj -o a.png --layout bvh2",
         "render room.obj -o a.png --progress dots",
         "render room.obj -o a.png --kernel pluecker",
         "render room.obj -o a.png --tolerance",
@@ -104,6 +108,10 @@ fn wrong_usage_is_exit_code_2_and_does_nothing() {
         "info room.obj room.obj",
         "bench",
         "bench room.obj --rounds 0",
+        "bench room.obj --builders --kernels",
+        "bench room.obj --builders --builder spatial",
+        "bench room.obj --layouts --builders",
+        "bench room.obj --layouts --layout bvh4",
         "chart",
         "chart --from a.json --quick -o a.svg",
         "chart --rays 0 -o a.svg",

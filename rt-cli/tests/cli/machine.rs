@@ -1,6 +1,7 @@
-//! One answer: the same bytes for every level, packet size, number of threads and accelerator.
+//! One answer: the same bytes for every level, packet size, number of threads, accelerator,
+//! builder and layout.
 
-use crate::support::{Run, Scratch, levels, run};
+use crate::support::{BUILDERS, LAYOUTS, Run, Scratch, levels, run};
 
 const INTEGRATORS: [&str; 4] = ["whitted", "eyelight", "normals", "depth"];
 
@@ -17,6 +18,8 @@ fn every_way_to_work_gives_the_same_bytes() {
             for level in &levels {
                 ways.push(vec!["--isa", level]);
             }
+            ways.extend(BUILDERS.map(|builder| vec!["--builder", builder]));
+            ways.extend(LAYOUTS.map(|layout| vec!["--layout", layout]));
             if integrator == "whitted" {
                 for level in &levels {
                     ways.extend(["1", "4", "8"].map(|size| vec!["--isa", level, "--packet", size]));

@@ -88,7 +88,7 @@ fn the_closing_line_says_which_and_why() {
     assert!(wald.contains("; wald kernel (off by at most 1."), "{wald}");
     assert!(wald.ends_with(" px, tolerance 0.05 px)"), "{wald}");
     let needles = line(&["needles.obj", "--tolerance", "0.05"]);
-    let why = "; watertight kernel (no cheaper one stays under 0.05 px)";
+    let why = "; watertight kernel (no lighter one stays under 0.05 px)";
     assert!(needles.ends_with(why), "{needles}");
     let asked = line(&["near.obj", "--kernel", "moller-trumbore"]);
     assert!(asked.ends_with("; moller-trumbore kernel"), "{asked}");

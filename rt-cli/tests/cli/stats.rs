@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 
-use crate::support::{Scratch, keys, levels};
+use crate::support::{BUILDERS, LAYOUTS, Scratch, keys, levels};
 
-const KEYS: [&str; 26] = [
+const KEYS: [&str; 27] = [
     "scene",
     "output",
     "width",
@@ -15,6 +15,7 @@ const KEYS: [&str; 26] = [
     "isa",
     "threads",
     "accel",
+    "builder",
     "layout",
     "packet",
     "kernel",
@@ -63,7 +64,13 @@ fn the_numbers_can_be() {
     for (key, value) in [("scene", "spd:balls:1"), ("output", "a.png"), ("isa", "scalar")] {
         assert_eq!(stats[key], value);
     }
-    for (key, value) in [("accel", "bvh"), ("kernel", "watertight"), ("integrator", "whitted")] {
+    for (key, value) in [
+        ("accel", "bvh"),
+        ("builder", "binned-sah"),
+        ("layout", "skip"),
+        ("kernel", "watertight"),
+        ("integrator", "whitted"),
+    ] {
         assert_eq!(stats[key], value);
     }
     for (key, value) in [("width", 30), ("height", 20), ("threads", 2), ("triangles", 2)] {
@@ -90,7 +97,7 @@ fn the_numbers_can_be() {
 #[test]
 fn brute_force_visits_no_nodes() {
     let brute = stats(&Scratch::new(), "spd:balls:1", &["--accel", "brute"]);
-    assert_eq!(brute["accel"], "brute");
+    assert_eq!((&brute["accel"], &brute["builder"]), (&"brute".into(), &Value::Null));
     assert_eq!(brute["node_visits"], 0);
     // A shadow ray may stop at the first hit; every other is tested against all ten spheres.
     let all_the_way = count(&brute["rays"]["primary"]) + count(&brute["rays"]["reflection"]);
@@ -106,9 +113,16 @@ fn the_same_rays_are_traced_in_every_way() {
     let mut ways = vec![vec!["--accel", "brute"], vec!["-j", "1"], vec!["-j", "5"]];
     let levels = levels();
     ways.extend(levels.iter().map(|level| vec!["--isa", level]));
+    ways.extend(BUILDERS.map(|builder| vec!["--builder", builder]));
+    ways.extend(LAYOUTS.map(|layout| vec!["--layout", layout]));
     for way in ways {
         let stats = stats(&scratch, "room.obj", &[&flags[..], &way].concat());
         assert_eq!(stats["rays"], expected, "{way:?}");
+        match way[..] {
+            ["--builder", builder] => assert_eq!(stats["builder"], builder),
+            ["--layout", layout] => assert_eq!(stats["layout"], layout),
+            _ => {}
+        }
     }
 }
 
@@ -124,6 +138,21 @@ fn flags_cost_and_save_rays() {
     assert!(rays(&["--light", "-1,2.5,1.5", "--depth", "0"])[1] <= shadow);
     assert_eq!(rays(&["--light", "-1,2.5,1.5", "--depth", "0"])[2], 0);
     assert_eq!(rays(&["--integrator", "eyelight"]), [600, 0, 0]);
+}
+
+/// Wide nodes are for single rays and the watertight test, and the program says so.
+#[test]
+fn what_a_layout_comes_to_is_told() {
+    let scratch = Scratch::with_room();
+    for layout in ["bvh4", "bvh8"] {
+        let flags = ["--layout", layout, "--packet", "8"];
+        let wide = stats(&scratch, "room.obj", &flags);
+        assert_eq!((&wide["layout"], &wide["packet"]), (&layout.into(), &"1".into()));
+        let wald = stats(&scratch, "room.obj", &[&flags[..], &["--kernel", "wald"]].concat());
+        assert_eq!(wald["layout"], "skip");
+    }
+    let brute = stats(&scratch, "room.obj", &["--layout", "bvh4", "--accel", "brute"]);
+    assert_eq!(brute["layout"], "list");
 }
 
 #[test]

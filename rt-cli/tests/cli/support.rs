@@ -32,6 +32,12 @@ newmtl wall\nKd 0.7 0.2 0.1
 newmtl mirror\nKd 0.1 0.1 0.3\nKs 0.6 0.6 0.6\nNs 20\nillum 3
 ";
 
+/// What `--builder` may be.
+pub(crate) const BUILDERS: [&str; 4] = ["binned-sah", "sweep-sah", "insertion", "spatial"];
+
+/// What `--layout` may be.
+pub(crate) const LAYOUTS: [&str; 3] = ["skip", "bvh4", "bvh8"];
+
 /// Longer than anything takes, even under an emulator: who is not done then, hangs.
 const HANGS: Duration = Duration::from_secs(120);
 

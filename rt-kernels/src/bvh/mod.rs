@@ -1,30 +1,55 @@
 //! Bounding volume hierarchies.
 //!
 //! A builder ([`build`]) makes a build tree; a [`layout`] turns it into flat arrays; a traversal
-//! ([`traverse`]) runs over them. [`Bvh`] is the combination that renders by default.
+//! ([`traverse`]) runs over them. A [`Bvh`] is a combination of them, as a [`Plan`] has it.
 
 pub mod build;
+mod closest_point;
 pub mod layout;
+mod plan;
+mod refit;
 pub mod traverse;
 
-pub use build::{BuildError, Join, Sequential};
+pub use build::{BuildError, Builder, Join, Sequential};
+pub use closest_point::ClosestPoint;
+pub use plan::{Layout, Plan};
+pub use refit::RefitError;
 
-use simd4::SimdF32;
+use crate::accelerator::Visitor;
+use crate::packet::{Hits, Rays};
+use crate::{Accelerator, Exec, Primitives, Ray, Stats};
+use layout::{SkipArray, Wide};
 
-use crate::packet::{Frame, Packet, Query};
-use crate::trace::Traverse;
-use crate::tri::{Method, TriangleKernel};
-use crate::{Primitives, Stats};
-use layout::SkipArray;
-
-/// A hierarchy of boxes, built by binned SAH, laid out as a depth-first array with skip pointers.
+/// A hierarchy of boxes.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    array: SkipArray,
+    plan: Plan,
+    array: Array,
 }
 
+/// A hierarchy in its layout.
+#[derive(Clone, Debug)]
+enum Array {
+    Skip(SkipArray),
+    Bvh4(Wide<4>),
+    Bvh8(Wide<8>),
+}
+
+/// Evaluates an expression for the layout, whichever it is.
+macro_rules! with_array {
+    ($array:expr, $a:ident => $body:expr) => {
+        match $array {
+            Array::Skip($a) => $body,
+            Array::Bvh4($a) => $body,
+            Array::Bvh8($a) => $body,
+        }
+    };
+}
+
+use with_array;
+
 impl Bvh {
-    /// Builds the hierarchy. It is the same for any `join`.
+    /// Builds the hierarchy by the default [`Plan`]. It is the same for any `join`.
     ///
     /// No primitives, coinciding ones and ones without area are all fine.
     ///
@@ -32,47 +57,80 @@ impl Bvh {
     /// If a coordinate is not finite or greater than 2^40, if a sphere has no radius, or if there
     /// are more than 2^28 primitives.
     pub fn build(primitives: &Primitives, join: &impl Join) -> Result<Bvh, BuildError> {
-        Bvh::build_with(primitives, Method::default(), join)
+        Bvh::build_with(primitives, Plan::default(), join)
     }
 
-    /// Builds the hierarchy for a triangle test of that method.
+    /// Builds the hierarchy by that plan.
     ///
     /// # Errors
     /// As [`build`](Bvh::build).
     pub fn build_with(
         primitives: &Primitives,
-        method: Method,
+        plan: Plan,
         join: &impl Join,
     ) -> Result<Bvh, BuildError> {
         primitives.check()?;
-        let tree = build::binned_sah::build(primitives, join);
-        Ok(Bvh { array: SkipArray::new(primitives, &tree, method) })
+        let plan = Plan { layout: plan.layout(), ..plan };
+        let tree = plan.builder.build(primitives, join);
+        let array = match plan.layout {
+            Layout::Skip => Array::Skip(SkipArray::new(primitives, tree, plan.method)),
+            Layout::Bvh4 => Array::Bvh4(Wide::new(primitives, tree)),
+            Layout::Bvh8 => Array::Bvh8(Wide::new(primitives, tree)),
+        };
+        Ok(Bvh { plan, array })
+    }
+
+    /// Takes new positions of the primitives that it was built for, in the same order, and keeps its
+    /// tree: much quicker than to build another, and as good as long as neighbours stay neighbours.
+    /// The hits are those of the new positions.
+    ///
+    /// # Errors
+    /// As [`build`](Bvh::build), or if there are more triangles or spheres than before, or fewer.
+    /// The hierarchy stays as it was.
+    pub fn refit(&mut self, primitives: &Primitives) -> Result<(), RefitError> {
+        with_array!(&mut self.array, array => refit::refit(array, primitives))
+    }
+
+    /// What it was built by: the layout is that which it has.
+    pub fn plan(&self) -> Plan {
+        self.plan
     }
 
     /// The number of nodes.
     pub fn nodes(&self) -> usize {
-        self.array.nodes().len()
+        with_array!(&self.array, array => array.nodes().len())
+    }
+
+    /// The number of nodes on the longest way from the root down: some hundred at most. Leaves are
+    /// nodes with [`Layout::Skip`] alone, but a leaf that is all there is has one above it.
+    pub fn depth(&self) -> usize {
+        with_array!(&self.array, array => array.depth())
+    }
+
+    /// How many primitives all leaves have together. Those that were cut count more than once.
+    pub fn references(&self) -> usize {
+        with_array!(&self.array, array => array.references())
     }
 }
 
-impl Traverse for Bvh {
-    #[inline(always)]
-    fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
-        &self,
-        s: V::Simd,
-        packet: &Packet<V>,
-        frame: &F,
-        query: &mut Q,
-        stats: &mut Stats,
-    ) {
-        traverse::skip::traverse::<K, V, F, Q>(s, &self.array, packet, frame, query, stats);
+impl Accelerator for Bvh {
+    fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats) {
+        with_array!(&self.array, array => array.closest(exec, rays, hits, stats));
     }
 
-    fn method(&self) -> Method {
-        self.array.store.method()
+    fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats) {
+        with_array!(&self.array, array => array.any(exec, rays, found, stats));
+    }
+
+    fn visit(&self, ray: &Ray, visitor: Visitor<'_>) {
+        with_array!(&self.array, array => array.visit(ray, visitor));
+    }
+
+    fn exec(&self, asked: Exec) -> Exec {
+        with_array!(&self.array, array => array.exec(asked))
     }
 
     fn bytes(&self) -> usize {
-        self.array.bytes()
+        with_array!(&self.array, array => Accelerator::bytes(array))
     }
 }

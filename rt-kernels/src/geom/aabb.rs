@@ -54,25 +54,28 @@ impl Aabb {
         self.max() - self.min()
     }
 
+    #[inline(always)]
+    fn lengths(&self) -> [f32; 3] {
+        let [[x0, x1], [y0, y1], [z0, z1]] = self.axes;
+        [x1 - x0, y1 - y0, z1 - z0]
+    }
+
     /// The smallest box that contains both.
     #[inline(always)]
     #[must_use]
     pub fn union(&self, other: &Aabb) -> Aabb {
-        Aabb {
-            axes: [0, 1, 2].map(|k| {
-                let ([min, max], [other_min, other_max]) = (self.axes[k], other.axes[k]);
-                [
-                    if min < other_min { min } else { other_min },
-                    if max > other_max { max } else { other_max },
-                ]
-            }),
+        let mut both = *self;
+        for ([min, max], [other_min, other_max]) in both.axes.iter_mut().zip(other.axes) {
+            *min = if *min < other_min { *min } else { other_min };
+            *max = if *max > other_max { *max } else { other_max };
         }
+        both
     }
 
     /// Half the area of the surface; 0 for an empty box.
     #[inline(always)]
     pub fn half_area(&self) -> f32 {
-        let [x, y, z] = self.axes.map(|[min, max]| max - min);
+        let [x, y, z] = self.lengths();
         if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
     }
 
@@ -81,16 +84,17 @@ impl Aabb {
     #[inline(always)]
     #[must_use]
     pub fn padded(&self) -> Aabb {
-        let [x, y, z] = self.axes.map(|[min, max]| max - min);
+        let [x, y, z] = self.lengths();
         let xy = if x > y { x } else { y };
         let extent = if xy > z { xy } else { z };
-        Aabb {
-            axes: self.axes.map(|[min, max]| {
-                let (low, high) = (min.abs(), max.abs());
-                let magnitude = if low > high { low } else { high };
-                let pad = extent * PADDING + magnitude * f32::EPSILON;
-                [min - pad, max + pad]
-            }),
+        let mut padded = *self;
+        for [min, max] in &mut padded.axes {
+            let (low, high) = (min.abs(), max.abs());
+            let magnitude = if low > high { low } else { high };
+            let pad = extent * PADDING + magnitude * f32::EPSILON;
+            *min -= pad;
+            *max += pad;
         }
+        padded
     }
 }

@@ -119,7 +119,8 @@ impl<V: SimdF32> Packet<V> {
 fn agreed<M: SimdMask>(mask: M, active: M) -> Option<bool> {
     match (mask & active).bitmask() {
         0 => Some(false),
-        lanes => (lanes == active.bitmask()).then_some(true),
+        // One lane agrees with itself: known when it is compiled, there is no other case.
+        lanes => (M::LANES == 1 || lanes == active.bitmask()).then_some(true),
     }
 }
 

@@ -2,18 +2,20 @@
 //!
 //! A [`Packet`] holds as many rays as a register has lanes. A [`Frame`] says how it looks at the
 //! axes: [`Coherent`] if all rays agree, [`Mixed`] if not. A [`Query`] says what is asked of it:
-//! the [`Closest`] hit, or whether there is [`Any`].
+//! the [`Closest`] hit, or whether there is [`Any`]; or either, of a [`Single`] ray in all lanes.
 
 mod axes;
 mod boxes;
 mod frame;
 mod query;
+mod single;
 mod stream;
 
 pub use axes::{Axes, OwnAxes, SameAxis};
 pub use boxes::{Boxes, OwnBoxes};
 pub use frame::{Coherent, Frame, Mixed};
 pub use query::{Any, Closest, Query};
+pub use single::{Ask, Single};
 pub use stream::{Hits, Rays};
 
 use simd4::math::Vec3;

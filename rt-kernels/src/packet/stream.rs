@@ -47,9 +47,11 @@ impl Rays {
     ///
     /// # Panics
     /// If there is none.
+    #[inline(always)]
     pub fn get(&self, i: usize) -> Ray {
-        let [ox, oy, oz, dx, dy, dz, tmin, tmax] = self.components.each_ref().map(|c| c[i]);
-        Ray { origin: Vec3::new(ox, oy, oz), dir: Vec3::new(dx, dy, dz), tmin, tmax }
+        let [ox, oy, oz, dx, dy, dz, tmin, tmax] = &self.components;
+        let [origin, dir] = [[ox, oy, oz], [dx, dy, dz]];
+        Ray { origin: at(origin, i), dir: at(dir, i), tmin: tmin[i], tmax: tmax[i] }
     }
 
     /// One component of all rays.
@@ -57,6 +59,11 @@ impl Rays {
     pub(super) fn component(&self, k: usize) -> &[f32] {
         &self.components[k]
     }
+}
+
+#[inline(always)]
+fn at([x, y, z]: [&Vec<f32>; 3], i: usize) -> Vec3 {
+    Vec3::new(x[i], y[i], z[i])
 }
 
 impl FromIterator<Ray> for Rays {
@@ -108,6 +115,18 @@ impl Hits {
     pub fn get(&self, i: usize) -> Option<Hit> {
         let prim = self.prim[i];
         (prim != Hits::NONE).then(|| Hit { t: self.t[i], prim, u: self.u[i], v: self.v[i] })
+    }
+
+    /// Writes for every ray whether it hit anything.
+    pub(crate) fn found(&self, found: &mut Vec<bool>) {
+        found.clear();
+        found.extend(self.prim.iter().map(|&prim| prim != Hits::NONE));
+    }
+
+    /// States the hit of a ray; none if its number is [`Hits::NONE`].
+    #[inline(always)]
+    pub(crate) fn set(&mut self, i: usize, hit: Hit) {
+        (self.t[i], self.u[i], self.v[i], self.prim[i]) = (hit.t, hit.u, hit.v, hit.prim);
     }
 
     /// Makes room for `n` rays.

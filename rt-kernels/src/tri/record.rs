@@ -1,7 +1,7 @@
 //! What kernels keep of triangles, one by one and in lanes.
 
 use simd4::math::Vec3;
-use simd4::{Block16, Lanes, Simd, SimdF32, spec};
+use simd4::{Lanes, Simd, SimdF32, spec};
 
 use crate::geom::{Aabb, PADDING, Triangle};
 use crate::packet::{Axes, Boxes, OwnAxes, OwnBoxes, SameAxis};
@@ -36,6 +36,11 @@ impl Record {
     /// The corners.
     pub fn corners(triangle: &Triangle, prim: u32) -> Record {
         Record::new(triangle.corners.map(|corner| corner.to_array()), prim, 0)
+    }
+
+    /// The triangle's number.
+    pub fn number(&self) -> u32 {
+        self.rows[0].word
     }
 
     /// What no ray meets, with any kernel.
@@ -117,28 +122,32 @@ fn block<S: Simd>(s: S, [x, y, z]: [f32; 3]) -> S::f32x4 {
     S::f32x4::from_array(s, [x, y, z, 0.0])
 }
 
-/// Sixteen records by component (SoA): as many steps of lanes as a level needs for them.
+/// Records by component (SoA), sixteen of them unless stated: as many steps of lanes as a level needs
+/// for them.
 #[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub struct RecordBlock {
-    numbers: [[Block16<f32>; 3]; 3],
-    prim: Block16<u32>,
-    axis: Block16<u32>,
+#[repr(C, align(64))]
+pub struct RecordBlock<const N: usize = 16> {
+    numbers: [[[f32; N]; 3]; 3],
+    prim: [u32; N],
+    axis: [u32; N],
 }
 
-impl RecordBlock {
+impl<const N: usize> RecordBlock<N> {
     /// The number of records in a block.
-    pub const LANES: usize = 16;
+    pub const LANES: usize = N;
 
-    /// At most sixteen records; the rest of the block is [nothing](Record::nothing).
+    /// As the number of a record that is nothing.
+    const NO_PRIM: u32 = u32::MAX;
+
+    /// At most so many records; the rest of the block is [nothing](Record::nothing).
     ///
     /// # Panics
     /// If there are more.
-    pub fn new(records: &[Record]) -> RecordBlock {
+    pub fn new(records: &[Record]) -> Self {
         let mut block = RecordBlock {
-            numbers: [[Block16([f32::NAN; 16]); 3]; 3],
-            prim: Block16([0; 16]),
-            axis: Block16([0; 16]),
+            numbers: [[[f32::NAN; N]; 3]; 3],
+            prim: [Self::NO_PRIM; N],
+            axis: [0; N],
         };
         for (lane, record) in records.iter().enumerate() {
             for (rows, row) in block.numbers.iter_mut().zip(record.rows) {
@@ -151,31 +160,36 @@ impl RecordBlock {
         }
         block
     }
+
+    /// The numbers of the triangles that it was made of.
+    pub(crate) fn prims(&self) -> impl Iterator<Item = u32> {
+        self.prim.iter().copied().filter(|&prim| prim != Self::NO_PRIM)
+    }
 }
 
 /// Some neighbours in a block, as many as a vector has lanes.
 #[derive(Clone, Copy, Debug)]
-pub struct BlockLanes<'a> {
-    block: &'a RecordBlock,
+pub struct BlockLanes<'a, const N: usize = 16> {
+    block: &'a RecordBlock<N>,
     first: usize,
 }
 
-impl<'a> BlockLanes<'a> {
+impl<'a, const N: usize> BlockLanes<'a, N> {
     /// Those from `first` on, which is a multiple of the number of lanes.
     #[inline(always)]
-    pub fn new(block: &'a RecordBlock, first: usize) -> Self {
+    pub fn new(block: &'a RecordBlock<N>, first: usize) -> Self {
         BlockLanes { block, first }
     }
 
     /// The lanes of some numbers of the block.
     #[inline(always)]
-    fn load<V: Lanes>(&self, s: V::Simd, from: &Block16<V::Elem>) -> V {
+    fn load<V: Lanes>(&self, s: V::Simd, from: &[V::Elem; N]) -> V {
         // The mask tells the compiler that the lanes are within the block.
-        V::load(s, &from.0[self.first & (RecordBlock::LANES - V::LANES)..])
+        V::load(s, &from[self.first & (N - V::LANES)..])
     }
 }
 
-impl<V: SimdF32> Records<V> for BlockLanes<'_> {
+impl<V: SimdF32, const N: usize> Records<V> for BlockLanes<'_, N> {
     type Axes = OwnAxes<V::Mask>;
     type Boxes = OwnBoxes<V>;
 

@@ -22,7 +22,7 @@ impl Triangles {
     pub fn new<K: TriangleKernel>(triangles: &[Triangle]) -> Triangles {
         let numbered = (0..).zip(triangles);
         let records: Vec<_> = numbered.map(|(prim, triangle)| K::record(triangle, prim)).collect();
-        let blocks = records.chunks(RecordBlock::LANES).map(RecordBlock::new).collect();
+        let blocks = records.chunks(<RecordBlock>::LANES).map(RecordBlock::new).collect();
         Triangles { records, blocks }
     }
 }
@@ -77,4 +77,4 @@ impl<K: TriangleKernel> Sweep for Of<K> {
     }
 }
 
-const _: () = assert!(RecordBlock::LANES == 16);
+const _: () = assert!(<RecordBlock>::LANES == 16);

@@ -52,6 +52,8 @@ impl Simd for Scalar {
     type u32s = u32x4;
     type mask32s = mask32x4;
 
+    const EMULATED: bool = true;
+
     #[inline(always)]
     fn level(self) -> Level {
         Level::Scalar(self)

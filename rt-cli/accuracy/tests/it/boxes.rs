@@ -20,7 +20,7 @@ fn the_default_misses_nothing_at_any_scale_or_distance() {
 fn families_have_hits() {
     for family in BoxFamily::all() {
         let name = family.facts().name;
-        let row = &shown::<BoxFamily>(&defaults::<BoxFamily>()[..1], name, 8_192)[0];
+        let row = &shown::<BoxFamily>(&defaults::<BoxFamily>()[..1], name, 16_384)[0];
         // Who starts inside enters nothing.
         let entries = row.tally.t_ulp.count();
         assert!(entries * 20 > row.tally.rays || name == "inside", "{row:?}");

@@ -1,12 +1,15 @@
 //! Measuring the kernels: the same rays, once for each way to run them, in interleaved rounds.
 
+mod rays;
+
+pub use rays::{Batches, diffuse, primary};
+
 use std::time::{Duration, Instant};
 
 use rt_kernels::tri::Method;
-use rt_kernels::{Exec, Hits, Rays, Stats};
+use rt_kernels::{Exec, Hits, Stats};
 
-use crate::exec::{camera, tile};
-use crate::{Job, RenderError, World};
+use crate::World;
 
 /// A world, which has a triangle test, and how to trace it.
 #[derive(Clone, Copy)]
@@ -17,7 +20,7 @@ pub struct Way<'a> {
     pub exec: Exec,
 }
 
-/// What one way to trace the primary rays of a picture took.
+/// What one way to trace the rays took.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     /// The triangle test.
@@ -35,26 +38,16 @@ pub struct Row {
     pub differing: u64,
 }
 
-/// Times the closest hits of a picture's primary rays on the calling thread, once a round for every
-/// way in turn, so that a machine that slows down slows down all of them.
-///
-/// # Errors
-/// If the camera looks nowhere.
-pub fn primary(job: &Job, ways: &[Way<'_>], rounds: usize) -> Result<Vec<Row>, RenderError> {
-    let Some(first) = ways.first() else { return Ok(Vec::new()) };
-    let camera = camera(first.world, job)?;
-    let (width, height) = job.size;
-    let batches: Vec<Rays> = tile::tiles(width, height)
-        .into_iter()
-        .map(|origin| tile::rays(&camera, &tile::pixels(origin, width, height)).collect())
-        .collect();
-
+/// Times the closest hits of some rays on the calling thread, once a round for every way in turn, so
+/// that a machine that slows down slows down all of them.
+pub fn trace(rays: &Batches, ways: &[Way<'_>], rounds: usize) -> Vec<Row> {
+    let batches = &rays.batches;
     let mut reference = Vec::new();
     let mut rows = Vec::new();
     for &Way { world, exec } in ways {
         let mut row = Row {
             method: world.method(),
-            exec,
+            exec: world.exec(exec),
             rays: 0,
             time: Duration::ZERO,
             stats: Stats::default(),
@@ -80,7 +73,7 @@ pub fn primary(job: &Job, ways: &[Way<'_>], rounds: usize) -> Result<Vec<Row>, R
     for _ in 0..rounds {
         for (&Way { world, exec }, times) in ways.iter().zip(&mut times) {
             let start = Instant::now();
-            for rays in &batches {
+            for rays in batches {
                 world.accel.closest(exec, rays, &mut hits, &mut Stats::default());
             }
             times.push(start.elapsed());
@@ -90,5 +83,5 @@ pub fn primary(job: &Job, ways: &[Way<'_>], rounds: usize) -> Result<Vec<Row>, R
         times.sort_unstable();
         row.time = times[times.len() / 2];
     }
-    Ok(rows)
+    rows
 }

@@ -1,4 +1,4 @@
-//! The cheapest triangle test that is good enough.
+//! The lightest triangle test that is good enough.
 
 use rt_scene::{Scene, View};
 
@@ -11,7 +11,7 @@ use crate::Method;
 pub struct Choice {
     /// The test.
     pub method: Method,
-    /// What each gets wrong, at most, cheapest first.
+    /// What each gets wrong, at most, lightest first.
     pub predictions: [Prediction; ERRORS.len()],
 }
 
@@ -23,7 +23,7 @@ impl Choice {
     }
 }
 
-/// The cheapest triangle test that stays under a tolerance, in pixels: the watertight one if no
+/// The lightest triangle test that stays under a tolerance, in pixels: the watertight one if no
 /// other does. With a tolerance of 0 none does.
 pub fn choose(scene: &Scene, view: &View, size: (u32, u32), tolerance: f64) -> Choice {
     let predictions = predict(scene, view, size);

@@ -7,7 +7,8 @@
 //! 2. [`predict`] says how far from an edge a camera's ray may still be misjudged, with each
 //!    [`Method`](crate::Method): triangle by triangle, by the [`ERRORS`] of the method, in world units and in pixels
 //!    of that camera.
-//! 3. [`choose`] takes the cheapest method of which that is less than a tolerance.
+//! 3. [`choose`] takes the lightest method, that of fewest operations, of which that is less than a
+//!    tolerance.
 //!
 //! # What a tolerance means
 //!

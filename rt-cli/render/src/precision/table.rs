@@ -32,7 +32,7 @@ pub struct Errors {
     pub most_triangles: usize,
 }
 
-/// The bounds of all methods, cheapest first; the last is the default.
+/// The bounds of all methods, lightest first; the last is the default.
 ///
 /// `reach`, `coordinate` and `depth` are the worst that was seen of ten million rays aimed at the
 /// edges of random triangles (near the origin, far from it, needles, edges seen end on;
@@ -43,7 +43,7 @@ pub struct Errors {
 /// coordinates. The watertight test's band is proven ([`Watertight`](rt_kernels::tri::Watertight),
 /// "Precision": 6 roundoffs along each of two axes).
 ///
-/// "Cheapest" is by operations for a test; in whole scenes `rt bench --kernels` shows a twentieth
+/// "Lightest" is by operations for a test; in whole scenes `rt bench --kernels` shows a twentieth
 /// either way, and Möller and Trumbore's slower in needles. Wald's own boxes are 24
 /// bytes more a triangle: where the records no longer fit in a cache, that costs more than the test
 /// saves.

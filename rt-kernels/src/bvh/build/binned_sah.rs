@@ -1,179 +1,201 @@
-//! Top-down building by the surface area heuristic, with candidate splits at the borders of bins.
+//! Top-down building by the [surface area heuristic](super::sah), with candidate splits at the borders
+//! of bins.
 //!
-//! The tree does not depend on `join`: both halves of a split work on disjoint references. Source:
-//! Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007. Deviation: all three
-//! axes are binned.
+//! A level of the tree passes over its references twice: to fill the bins, and to partition in place,
+//! which also finds by what the next level bins. The tree does not depend on `join`: both halves of a
+//! split work on disjoint references.
+//!
+//! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007. Deviation: all
+//! three axes are binned.
 
-use super::{Content, Join, Node, Reference, Sequential, Tree};
+use simd4::f32x4;
+use simd4::prelude::*;
+
+use super::sah::{SAH_DEPTH, Side, both};
+use super::{Bounds, Join, Node, Reference, Tree};
 use crate::bvh::layout::MAX_SLOTS;
-use crate::geom::Aabb;
 use crate::primitives::Primitives;
 
-/// Bins an axis.
+/// The most bins an axis.
 const BINS: usize = 16;
 
-/// The cost of testing a node, in tests of a primitive.
-const NODE_COST: f32 = 1.0;
-
-/// Below this depth splits are by count, so that the depth is bounded by this and the logarithm of
-/// the number of primitives.
-const SAH_DEPTH: usize = 64;
-
-/// The least number of references for which the halves may go to different threads.
-const PARALLEL: usize = 4096;
+/// The bins an axis for so many references. Among few, more borders find nothing much cheaper, and to
+/// look through the bins would take longer than to fill them.
+fn bins_for(references: usize) -> usize {
+    BINS.min(4 + references / 4)
+}
 
 /// Builds the tree of all primitives.
 pub(crate) fn build(primitives: &Primitives, join: &impl Join) -> Tree {
-    let mut order: Vec<Reference> =
-        primitives.own_boxes().zip(0..).map(|(aabb, prim)| Reference { aabb, prim }).collect();
-    let root = (!order.is_empty()).then(|| subtree(&mut order, 0, 0, join));
+    build_from(primitives, 0, join)
+}
+
+/// As [`build`], as if the root were at that depth.
+pub(super) fn build_from(primitives: &Primitives, depth: usize, join: &impl Join) -> Tree {
+    let mut order: Vec<Reference> = Reference::all(primitives).collect();
+    let root = (!order.is_empty()).then(|| {
+        let extent = Extent::of(&order);
+        subtree(&mut order, extent, 0, depth, join)
+    });
     Tree { root, order }
 }
 
 /// The tree of these references, which begin at `first` of all; `depth` is that of its root.
-fn subtree(references: &mut [Reference], first: usize, depth: usize, join: &impl Join) -> Node {
-    let aabb = references.iter().fold(Aabb::EMPTY, |all, one| all.union(&one.aabb));
-    let split = if depth < SAH_DEPTH { best_split(references) } else { None };
-    let leaf_cost = references.len() as f32 * aabb.half_area();
-    let middle = match split {
-        Some(split) if split.cost + NODE_COST * aabb.half_area() < leaf_cost => {
-            partition(references, |reference| split.is_left(reference))
-        }
-        _ if references.len() > MAX_SLOTS => halve(references),
-        _ => {
-            let content = Content::Leaf(first..first + references.len());
-            return Node { aabb, content };
-        }
+fn subtree(
+    references: &mut [Reference],
+    extent: Extent,
+    first: usize,
+    depth: usize,
+    join: &impl Join,
+) -> Node {
+    let split = if depth < SAH_DEPTH { best_split(references, &extent.centers) } else { None };
+    let [left, right] = match split {
+        Some(split) if extent.side.pays(split.cost) => split.partition(references),
+        _ if references.len() > MAX_SLOTS => halve(references, &extent.centers),
+        _ => return extent.side.leaf(first),
     };
-
-    let (left, right) = references.split_at_mut(middle);
-    let parallel = left.len().min(right.len()) >= PARALLEL;
-    let left = || subtree(left, first, depth + 1, join);
-    let right = || subtree(right, first + middle, depth + 1, join);
-    let (left, right) =
-        if parallel { join.join(left, right) } else { Sequential.join(left, right) };
-    Node { aabb, content: Content::Inner(Box::new([left, right])) }
+    let middle = left.side.count;
+    let (lefts, rights) = references.split_at_mut(middle);
+    extent.side.inner(both(
+        join,
+        [lefts.len(), rights.len()],
+        || subtree(lefts, left, first, depth + 1, join),
+        || subtree(rights, right, first + middle, depth + 1, join),
+    ))
 }
 
-/// Twice the centre of a box.
-fn center(aabb: &Aabb) -> [f32; 3] {
-    aabb.axes.map(|[min, max]| min + max)
+/// Where references are.
+#[derive(Clone, Copy)]
+pub(super) struct Extent {
+    pub(super) side: Side,
+    /// The box around twice their centres.
+    pub(super) centers: Bounds,
 }
 
-/// From centres to bins, on all axes.
+impl Extent {
+    pub(super) fn of(references: &[Reference]) -> Extent {
+        let mut centers = Bounds::empty();
+        for reference in references {
+            centers = centers.union(&Bounds::point(reference.center()));
+        }
+        Extent { side: Side::of(references), centers }
+    }
+}
+
+/// From centres to bins, in the lanes of the axes.
 #[derive(Clone, Copy)]
 struct Binning {
-    origin: [f32; 3],
-    scale: [f32; 3],
+    origin: f32x4,
+    scale: f32x4,
+    bins: usize,
 }
 
 impl Binning {
-    fn new(references: &[Reference]) -> Binning {
-        let centers = references.iter().fold(Aabb::EMPTY, |all, one| {
-            let center = center(&one.aabb);
-            all.union(&Aabb { axes: center.map(|center| [center, center]) })
-        });
-        Binning {
-            origin: centers.axes.map(|[min, _]| min),
-            scale: centers.axes.map(|[min, max]| BINS as f32 / (max - min)),
-        }
+    #[inline(always)]
+    fn new(centers: &Bounds, bins: usize) -> Binning {
+        let [origin, end] = centers.corners();
+        Binning { origin, scale: f32x4::from(bins as f32) / (end - origin), bins }
     }
 
-    /// The bin of a reference on one axis. (`as` makes 0 of the NaN of an axis without extent.)
-    fn bin(&self, reference: &Reference, axis: usize) -> usize {
-        let [min, max] = reference.aabb.axes[axis];
-        let along = (min + max - self.origin[axis]) * self.scale[axis];
-        (along as usize).min(BINS - 1)
-    }
-}
-
-/// What is in a bin, or in several.
-#[derive(Clone, Copy)]
-struct Bin {
-    aabb: Aabb,
-    count: usize,
-}
-
-impl Bin {
-    const EMPTY: Bin = Bin { aabb: Aabb::EMPTY, count: 0 };
-
-    fn add(&mut self, aabb: &Aabb, count: usize) {
-        self.aabb = self.aabb.union(aabb);
-        self.count += count;
+    /// Where a reference is on each axis, in bins from the first. (`max` makes 0 of the NaN of an axis
+    /// without extent.)
+    #[inline(always)]
+    fn along(&self, reference: &Reference) -> f32x4 {
+        let along = (reference.center() - self.origin) * self.scale;
+        along.max(f32x4::from(0.0)).min(f32x4::from((self.bins - 1) as f32))
     }
 
-    /// The expected number of primitive tests, times the area of the parent.
-    fn cost(&self) -> f32 {
-        self.count as f32 * self.aabb.half_area()
+    /// The bins of a reference on all axes.
+    #[inline(always)]
+    fn bins(&self, reference: &Reference) -> [usize; 3] {
+        let [x, y, z, _] = self.along(reference).to_i32_fast().to_array();
+        [x as usize, y as usize, z as usize]
     }
 }
 
-/// A split between two bins: `bins..` go right.
-struct Split {
+/// A split between two bins.
+pub(super) struct Split {
     binning: Binning,
     axis: usize,
-    bins: usize,
-    cost: f32,
-}
-
-impl Split {
-    fn is_left(&self, reference: &Reference) -> bool {
-        self.binning.bin(reference, self.axis) < self.bins
-    }
+    /// The first bin that goes right.
+    border: usize,
+    /// What goes left, and what right.
+    pub(super) sides: [Side; 2],
+    /// The sum of the sides' costs.
+    pub(super) cost: f32,
 }
 
 /// The cheapest split with something on both sides.
-fn best_split(references: &[Reference]) -> Option<Split> {
-    let binning = Binning::new(references);
-    let mut bins = [[Bin::EMPTY; BINS]; 3];
+pub(super) fn best_split(references: &[Reference], centers: &Bounds) -> Option<Split> {
+    if references.len() < 2 {
+        return None;
+    }
+    let used = bins_for(references.len());
+    let binning = Binning::new(centers, used);
+    let mut bins = [[Side::empty(); BINS]; 3];
     for reference in references {
-        for (axis, bins) in bins.iter_mut().enumerate() {
-            bins[binning.bin(reference, axis)].add(&reference.aabb, 1);
+        for (bins, place) in bins.iter_mut().zip(binning.bins(reference)) {
+            bins[place].add(reference.bounds(), 1);
         }
     }
 
-    let mut best: Option<Split> = None;
+    let mut best = None;
+    let mut least = f32::INFINITY;
     for (axis, bins) in bins.iter().enumerate() {
+        let bins = &bins[..used];
         let mut right_costs = [0.0; BINS];
-        let mut right = Bin::EMPTY;
-        for i in (1..BINS).rev() {
-            right.add(&bins[i].aabb, bins[i].count);
-            right_costs[i] = right.cost();
+        let mut right = Side::empty();
+        for (bin, cost) in bins.iter().zip(&mut right_costs[..used]).skip(1).rev() {
+            right.add(&bin.bounds, bin.count);
+            *cost = right.cost();
         }
-        let mut left = Bin::EMPTY;
-        for i in 1..BINS {
-            left.add(&bins[i - 1].aabb, bins[i - 1].count);
-            let cost = left.cost() + right_costs[i];
+        let mut left = Side::empty();
+        for border in 1..used {
+            left.add(&bins[border - 1].bounds, bins[border - 1].count);
+            let cost = left.cost() + right_costs[border];
             let both = left.count > 0 && left.count < references.len();
-            if both && best.as_ref().is_none_or(|best| cost < best.cost) {
-                best = Some(Split { binning, axis, bins: i, cost });
+            if both && cost < least {
+                (best, least) = (Some((axis, border)), cost);
             }
         }
     }
-    best
+    let (axis, border) = best?;
+    let mut sides = [Side::empty(); 2];
+    for (place, bin) in bins[axis][..used].iter().enumerate() {
+        sides[usize::from(place >= border)].add(&bin.bounds, bin.count);
+    }
+    Some(Split { binning, axis, border, sides, cost: least })
 }
 
-/// Puts those for which `left` holds first, and returns their number.
-fn partition(references: &mut [Reference], left: impl Fn(&Reference) -> bool) -> usize {
-    let mut middle = 0;
-    for i in 0..references.len() {
-        if left(&references[i]) {
-            references.swap(i, middle);
-            middle += 1;
+impl Split {
+    /// Puts what goes left first. Where both sides are then.
+    pub(super) fn partition(&self, references: &mut [Reference]) -> [Extent; 2] {
+        let border = f32x4::from(self.border as f32);
+        let mut centers = [Bounds::empty(); 2];
+        let mut middle = 0;
+        for next in 0..references.len() {
+            let reference = references[next];
+            let left = self.binning.along(&reference).lt(border).bitmask() >> self.axis & 1;
+            let side = &mut centers[1 - left as usize];
+            *side = side.union(&Bounds::point(reference.center()));
+            // Those from `middle` on go right, so that it is right to swap in any case: a branch here
+            // is one that no CPU foretells.
+            references.swap(next, middle);
+            middle += left as usize;
         }
+        [0, 1].map(|i| Extent { side: self.sides[i], centers: centers[i] })
     }
-    middle
 }
 
 /// Splits by count, along the axis on which the centres spread most.
-fn halve(references: &mut [Reference]) -> usize {
-    let binning = Binning::new(references);
-    let axis =
-        (0..3).fold(0, |best, k| if binning.scale[k] < binning.scale[best] { k } else { best });
+pub(super) fn halve(references: &mut [Reference], centers: &Bounds) -> [Extent; 2] {
+    let spread = centers.extent();
+    let axis = (1..3).fold(0, |best, k| if spread[k] > spread[best] { k } else { best });
     let middle = references.len() / 2;
     references.select_nth_unstable_by(middle, |a, b| {
-        let (a_center, b_center) = (center(&a.aabb)[axis], center(&b.aabb)[axis]);
-        a_center.total_cmp(&b_center).then(a.prim.cmp(&b.prim))
+        let (a_center, b_center) = (a.center().to_array()[axis], b.center().to_array()[axis]);
+        a_center.total_cmp(&b_center).then(a.prim().cmp(&b.prim()))
     });
-    middle
+    let (left, right) = references.split_at(middle);
+    [Extent::of(left), Extent::of(right)]
 }

@@ -1,6 +1,18 @@
-//! Builders, all to one build tree: one file a method.
+//! Builders, all to one build tree: one file a method. A [`Builder`] is chosen at run time.
+//!
+//! Whatever the builder, the hits are the same; and no tree is deeper than a hundred nodes, however
+//! unkind the scene, so that recursion is safe.
 
 pub mod binned_sah;
+mod builder;
+pub mod goldsmith_salmon;
+mod reference;
+pub mod sah;
+pub mod spatial_splits;
+pub mod sweep_sah;
+
+pub use builder::Builder;
+pub(crate) use reference::{Bounds, Reference};
 
 use std::ops::Range;
 
@@ -9,6 +21,16 @@ use crate::geom::Aabb;
 /// Why a scene is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
+    /// A triangle names a vertex that is not there.
+    #[error("primitive {prim} has the vertex {vertex}, but there are {vertices}")]
+    NoVertex {
+        /// The primitive's number.
+        prim: usize,
+        /// The vertex's.
+        vertex: u32,
+        /// How many there are.
+        vertices: usize,
+    },
     /// A coordinate is infinite or NaN.
     #[error("primitive {prim} has a coordinate that is not finite")]
     NotFinite {
@@ -61,38 +83,129 @@ impl Join for Sequential {
     }
 }
 
-/// A primitive in a builder's hands.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Reference {
-    /// Its own box.
-    pub(crate) aabb: Aabb,
-    /// Its number.
-    pub(crate) prim: u32,
-}
-
 /// The build tree.
-#[derive(Debug)]
 pub(crate) struct Tree {
     /// `None` if there are no primitives.
     pub(crate) root: Option<Node>,
-    /// All references; each leaf has a range of them.
+    /// All references; each leaf has a range of them. Those in no leaf mean nothing.
     pub(crate) order: Vec<Reference>,
 }
 
 /// A node of the build tree.
-#[derive(Debug)]
 pub(crate) struct Node {
-    /// The union of all own boxes below.
+    /// The union of the boxes of all references below.
     pub(crate) aabb: Aabb,
     /// What is below.
     pub(crate) content: Content,
 }
 
 /// What is below a node.
-#[derive(Debug)]
 pub(crate) enum Content {
-    /// Two children.
-    Inner(Box<[Node; 2]>),
+    /// Two children or more.
+    Inner(Box<[Node]>),
     /// A range of [`Tree::order`], not empty.
     Leaf(Range<usize>),
+}
+
+impl Node {
+    /// The number of nodes on the longest way to a leaf.
+    #[cfg(test)]
+    fn depth(&self) -> usize {
+        match &self.content {
+            Content::Inner(children) => {
+                1 + children.iter().map(Node::depth).max().unwrap_or_default()
+            }
+            Content::Leaf(_) => 1,
+        }
+    }
+
+    /// Calls with every leaf.
+    pub(crate) fn leaves(&self, leaf: &mut impl FnMut(&Node, Range<usize>)) {
+        match &self.content {
+            Content::Inner(children) => children.iter().for_each(|child| child.leaves(leaf)),
+            Content::Leaf(range) => leaf(self, range.clone()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::Primitives;
+    use crate::bvh::layout::MAX_SLOTS;
+    use crate::geom::Triangle;
+
+    /// Around each other, each twice as large as the one before.
+    fn nested() -> Primitives {
+        let triangle = |i: i32| {
+            let corners = [Vec3::ZERO, Vec3::new(1.0, 0.0, 0.5), Vec3::new(0.5, 1.0, 1.0)];
+            Triangle { corners: corners.map(|corner| corner * 2.0f32.powi(i % 100 - 60)) }
+        };
+        Primitives { triangles: (0..1000).map(triangle).collect(), spheres: vec![] }
+    }
+
+    /// Two heaps of triangles of all kinds, listed by turns.
+    fn heaps() -> Primitives {
+        let triangle = |i: usize| {
+            let heap = Vec3::new(0.0, [0.0, 9.0][i % 2], 0.0);
+            let at = |k: usize| (Vec3::new(0.61, 1.37, 2.71) * (i * k) as f32).map(f32::sin);
+            Triangle { corners: [3, 5, 7].map(|k| at(k) + heap) }
+        };
+        Primitives { triangles: (0..500).map(triangle).collect(), spheres: vec![] }
+    }
+
+    /// So that the depth is bounded, whatever the scene: the levels of the heuristic and these.
+    #[test]
+    fn below_the_levels_of_the_heuristic_splits_are_by_count() {
+        let scene = nested();
+        let bound = 1 + (scene.len() / MAX_SLOTS).ilog2() as usize + 1;
+        let last = sah::SAH_DEPTH;
+        let trees = |depth| {
+            [
+                binned_sah::build_from(&scene, depth, &Sequential),
+                sweep_sah::build_from(&scene, depth, &Sequential),
+                spatial_splits::build_from(&scene, depth, &Sequential),
+            ]
+            .map(|tree| tree.root.expect("there are primitives").depth())
+        };
+        assert!(trees(0).into_iter().all(|depth| depth > 2 * bound), "{:?}", trees(0));
+        assert_eq!(trees(last), [bound; 3]);
+    }
+
+    /// What the heuristic is for.
+    #[test]
+    fn two_heaps_are_two_subtrees() {
+        for builder in [Builder::BinnedSah, Builder::SweepSah, Builder::Spatial] {
+            let tree = builder.build(&heaps(), &Sequential);
+            let Some(Node { content: Content::Inner(children), .. }) = tree.root else {
+                panic!("{builder:?} made one leaf of all");
+            };
+            for child in children {
+                let [low, high] = child.aabb.axes[1];
+                assert!(high - low < 4.0, "{builder:?}: from {low} to {high}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_primitive_is_in_a_leaf_and_every_box_in_its_node() {
+        let scenes = [nested(), heaps()];
+        for (scene, builder) in
+            scenes.iter().flat_map(|scene| Builder::ALL.map(|builder| (scene, builder)))
+        {
+            let tree = builder.build(scene, &Sequential);
+            let mut found = vec![0; scene.len()];
+            tree.root.expect("there are primitives").leaves(&mut |node, range| {
+                for reference in &tree.order[range] {
+                    found[reference.prim() as usize] += 1;
+                    let aabb = reference.bounds().aabb();
+                    assert_eq!(node.aabb.union(&aabb), node.aabb, "{builder:?}");
+                }
+            });
+            let once = builder != Builder::Spatial;
+            assert!(found.iter().all(|&n| if once { n == 1 } else { n >= 1 }), "{builder:?}");
+        }
+    }
 }

@@ -5,7 +5,8 @@
 
 use std::ops::Range;
 
-use crate::bvh::build::{self, Content};
+use crate::bvh::build::{self, Content, Reference};
+use crate::bvh::refit::Refit;
 use crate::geom::Aabb;
 use crate::primitives::{Primitives, Store};
 use crate::tri::Method;
@@ -14,7 +15,7 @@ use crate::tri::Method;
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub struct Node {
-    /// The union of the own boxes of all that is below.
+    /// The union of the own boxes of all that is below, or of the pieces of them that are.
     pub aabb: Aabb,
     /// The node to go on with if this one is missed.
     pub skip: u32,
@@ -47,14 +48,21 @@ pub struct SkipArray {
 }
 
 impl SkipArray {
-    /// Converts a build tree. Of two children the one with the larger surface comes first: it is
-    /// the likelier to be hit, and a hit bounds the rest.
-    pub(crate) fn new(primitives: &Primitives, tree: &build::Tree, method: Method) -> SkipArray {
-        let mut flat =
-            Flattener { primitives, tree, nodes: Vec::new(), order: Vec::new(), slots: [0; 2] };
-        flat.slots[1] = primitives.triangles.len();
-        if let Some(root) = &tree.root {
-            flat.emit(root);
+    /// Converts a build tree. Children come in decreasing order of their surface: the larger is the
+    /// likelier to be hit, and a hit bounds the rest.
+    pub(crate) fn new(primitives: &Primitives, tree: build::Tree, method: Method) -> SkipArray {
+        let build::Tree { root, order: mut references } = tree;
+        let mut flat = Flattener {
+            triangles: primitives.triangles.len() as u32,
+            order: Vec::with_capacity(references.len()),
+            ..Flattener::default()
+        };
+        if let Some(root) = root {
+            flat.emit(root, &mut references);
+        }
+        // The slots of spheres follow those of triangles.
+        for leaf in flat.of_spheres {
+            flat.nodes[leaf].leaf += flat.slots[0] << 4;
         }
         let store = Store::reordered(primitives, method, flat.order.into_iter());
         SkipArray { nodes: flat.nodes, store }
@@ -65,41 +73,93 @@ impl SkipArray {
         &self.nodes
     }
 
+    /// The number of nodes on the longest way from the root to a leaf.
+    pub(crate) fn depth(&self) -> usize {
+        let mut ends = Vec::new();
+        let mut depth = 0;
+        for (i, node) in self.nodes.iter().enumerate() {
+            while ends.last().is_some_and(|end| *end <= i) {
+                ends.pop();
+            }
+            ends.push(node.skip as usize);
+            depth = depth.max(ends.len());
+        }
+        depth
+    }
+
+    /// How many primitives all leaves have together.
+    pub(crate) fn references(&self) -> usize {
+        self.store.slots()
+    }
+
     /// The memory of nodes and primitives.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&*self.nodes) + self.store.bytes()
     }
 }
 
-struct Flattener<'a> {
-    primitives: &'a Primitives,
-    tree: &'a build::Tree,
-    nodes: Vec<Node>,
-    order: Vec<u32>,
-    /// The next free slot of each kind: triangles, spheres.
-    slots: [usize; 2],
+impl Refit for SkipArray {
+    fn counts(&self) -> [usize; 2] {
+        self.store.counts()
+    }
+
+    fn replace(&mut self, primitives: &Primitives, own_boxes: &[Aabb]) {
+        self.store.replace(primitives);
+        for i in (0..self.nodes.len()).rev() {
+            let node = self.nodes[i];
+            let mut aabb = Aabb::EMPTY;
+            match node.slots() {
+                Some(slots) => {
+                    for slot in slots {
+                        aabb = aabb.union(&own_boxes[self.store.prim(slot) as usize]);
+                    }
+                }
+                None => {
+                    let mut child = i + 1;
+                    while child < node.skip as usize {
+                        aabb = aabb.union(&self.nodes[child].aabb);
+                        child = self.nodes[child].skip as usize;
+                    }
+                }
+            }
+            self.nodes[i].aabb = aabb;
+        }
+    }
 }
 
-impl Flattener<'_> {
-    fn emit(&mut self, node: &build::Node) {
-        match &node.content {
-            Content::Inner(children) => {
+/// An array that grows.
+#[derive(Default)]
+struct Flattener {
+    /// How many primitives are triangles: the first.
+    triangles: u32,
+    nodes: Vec<Node>,
+    order: Vec<u32>,
+    /// How many slots there are of each kind: triangles, spheres.
+    slots: [u32; 2],
+    /// The leaves whose slots count from the first sphere's.
+    of_spheres: Vec<usize>,
+}
+
+impl Flattener {
+    fn emit(&mut self, node: build::Node, references: &mut [Reference]) {
+        match node.content {
+            Content::Inner(mut children) => {
                 let at = self.nodes.len();
                 self.nodes.push(Node { aabb: node.aabb, skip: 0, leaf: 0 });
-                let [a, b] = &**children;
-                let (first, second) =
-                    if a.aabb.half_area() >= b.aabb.half_area() { (a, b) } else { (b, a) };
-                self.emit(first);
-                self.emit(second);
+                children.sort_by(|a, b| b.aabb.half_area().total_cmp(&a.aabb.half_area()));
+                for child in children {
+                    self.emit(child, references);
+                }
                 self.nodes[at].skip = self.nodes.len() as u32;
             }
             Content::Leaf(range) => {
                 // A leaf holds one kind of primitive: of two kinds make two leaves.
-                let triangles = self.primitives.triangles.len();
-                let (flat, round): (Vec<_>, Vec<_>) = self.tree.order[range.clone()]
-                    .iter()
-                    .partition(|reference| (reference.prim as usize) < triangles);
-                for (kind, references) in [flat, round].into_iter().enumerate() {
+                let references = &mut references[range];
+                let is_sphere = |reference: &Reference| reference.prim() >= self.triangles;
+                references.sort_by_key(is_sphere);
+                let spheres = references.partition_point(|reference| !is_sphere(reference));
+                let (triangles, spheres) = references.split_at(spheres);
+                for (kind, references) in [triangles, spheres].into_iter().enumerate() {
                     for leaf in references.chunks(MAX_SLOTS) {
                         self.leaf(kind, leaf);
                     }
@@ -108,15 +168,14 @@ impl Flattener<'_> {
         }
     }
 
-    fn leaf(&mut self, kind: usize, references: &[build::Reference]) {
-        let first = self.slots[kind];
-        self.slots[kind] += references.len();
-        self.order.extend(references.iter().map(|reference| reference.prim));
-        let aabb = references.iter().fold(Aabb::EMPTY, |all, one| all.union(&one.aabb));
-        self.nodes.push(Node {
-            aabb,
-            skip: self.nodes.len() as u32 + 1,
-            leaf: (first as u32) << 4 | references.len() as u32,
-        });
+    fn leaf(&mut self, kind: usize, references: &[Reference]) {
+        if kind == 1 {
+            self.of_spheres.push(self.nodes.len());
+        }
+        let (first, count) = (self.slots[kind], references.len() as u32);
+        self.slots[kind] += count;
+        self.order.extend(references.iter().map(Reference::prim));
+        let aabb = references.iter().fold(Aabb::EMPTY, |all, one| all.union(&one.bounds().aabb()));
+        self.nodes.push(Node { aabb, skip: self.nodes.len() as u32 + 1, leaf: first << 4 | count });
     }
 }

@@ -10,7 +10,8 @@ use crate::Stats;
 use crate::bvh::layout::SkipArray;
 use crate::packet::{Frame, Packet, Query};
 use crate::slab::robust;
-use crate::tri::TriangleKernel;
+use crate::trace::Traverse;
+use crate::tri::{Method, TriangleKernel};
 
 /// Hands the primitives of every leaf that some ray may hit to their kernels, triangles to `K`: that
 /// of the method that the array was made for.
@@ -42,4 +43,28 @@ pub fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
     }
     stats.node_visits += visits;
     stats.box_tests += visits * V::LANES as u64;
+}
+
+impl Traverse for SkipArray {
+    const ANY_PACKET: bool = true;
+
+    #[inline(always)]
+    fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
+        &self,
+        s: V::Simd,
+        packet: &Packet<V>,
+        frame: &F,
+        query: &mut Q,
+        stats: &mut Stats,
+    ) {
+        traverse::<K, V, F, Q>(s, self, packet, frame, query, stats);
+    }
+
+    fn method(&self) -> Method {
+        self.store.method()
+    }
+
+    fn bytes(&self) -> usize {
+        SkipArray::bytes(self)
+    }
 }

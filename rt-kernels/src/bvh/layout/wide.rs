@@ -1,0 +1,482 @@
+//! Nodes of up to N children, 4 or 8, whose boxes are tested at once, one in each lane.
+//!
+//! A node of the build tree is opened as long as there is room: of its children the one with the
+//! largest surface gives way to its own. Subtrees of up to N triangles become one block, whose
+//! triangles are tested at once too: that takes little longer than to test a node, and is quicker than
+//! to test them one by one from the second on.
+//!
+//! A lane without a child has the box from +∞ to −∞. A ray enters it at +∞ and leaves it at −∞ on
+//! every axis, whatever its direction, and so misses it; a box of NaNs would be met by every ray, since
+//! a distance that is NaN counts as no end ([`robust`](crate::slab::robust)).
+//!
+//! Source: Wald, Benthin, Boulos, "Getting Rid of Packets", 2008; Dammertz, Hanika, Keller,
+//! "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing of Incoherent Rays", 2008.
+
+use std::ops::Range;
+
+use simd4::SimdF32;
+
+use super::MAX_SLOTS;
+use crate::bvh::build::{self, Content, Reference};
+use crate::bvh::refit::Refit;
+use crate::geom::Aabb;
+use crate::packet::Boxes;
+use crate::primitives::{Primitives, SphereRecord};
+use crate::tri::{Method, Record, RecordBlock};
+
+/// Up to N boxes by side (SoA), and what is in them.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct WideNode<const N: usize> {
+    sides: [[[f32; N]; 2]; 3],
+    pub(crate) children: [Child; N],
+}
+
+const _: () = assert!(size_of::<WideNode<4>>() == 128, "two cache lines");
+const _: () = assert!(size_of::<WideNode<8>>() == 256, "four cache lines");
+
+impl<const N: usize> WideNode<N> {
+    /// No children.
+    const EMPTY: Self = WideNode {
+        sides: [[[f32::INFINITY; N], [f32::NEG_INFINITY; N]]; 3],
+        children: [Child::NONE; N],
+    };
+
+    fn set_box(&mut self, lane: usize, aabb: &Aabb) {
+        for (sides, axis) in self.sides.iter_mut().zip(aabb.axes) {
+            for (side, value) in sides.iter_mut().zip(axis) {
+                side[lane] = value;
+            }
+        }
+    }
+
+    /// The children and their boxes.
+    pub(crate) fn boxes(&self) -> impl Iterator<Item = (Child, Aabb)> {
+        let aabb = |lane: usize| Aabb { axes: self.sides.map(|sides| sides.map(|s| s[lane])) };
+        let lanes = self.children.into_iter().enumerate();
+        lanes
+            .filter(|(_, child)| *child != Child::NONE)
+            .map(move |(lane, child)| (child, aabb(lane)))
+    }
+
+    /// The box around those of all children.
+    fn bounds(&self) -> Aabb {
+        let least = |lanes: &[f32; N]| lanes.iter().copied().fold(f32::INFINITY, f32::min);
+        let greatest = |lanes: &[f32; N]| lanes.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        Aabb { axes: self.sides.each_ref().map(|[low, high]| [least(low), greatest(high)]) }
+    }
+}
+
+impl<V: SimdF32, const N: usize> Boxes<V> for WideNode<N> {
+    #[inline(always)]
+    fn side(&self, s: V::Simd, axis: usize, side: usize) -> V {
+        // The mask tells the compiler that there are but two sides.
+        V::load(s, &self.sides[axis][side & 1])
+    }
+}
+
+/// What is in a box: another node, or a leaf of some slots. A **slot** is a block of triangles or a
+/// sphere; those of spheres follow those of blocks.
+///
+/// In the upper 28 bits the node or the first slot, in the lower 4 the number of slots; 0: a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Child(u32);
+
+impl Child {
+    const NONE: Child = Child(u32::MAX);
+
+    /// The root.
+    pub(crate) const ROOT: Child = Child(0);
+
+    fn node(at: usize) -> Child {
+        Child((at as u32) << 4)
+    }
+
+    fn leaf(slots: Range<usize>) -> Child {
+        Child((slots.start as u32) << 4 | slots.len() as u32)
+    }
+
+    /// The node, or the slots of the leaf.
+    #[inline(always)]
+    pub(crate) fn find(self) -> Result<usize, Range<usize>> {
+        let first = (self.0 >> 4) as usize;
+        match (self.0 & 15) as usize {
+            0 => Ok(first),
+            count => Err(first..first + count),
+        }
+    }
+}
+
+/// The nodes, and the primitives in the order of the leaves. Only for the default triangle test.
+#[derive(Clone, Debug)]
+pub struct Wide<const N: usize> {
+    /// A node comes before those below it; the first is the root. None if there is nothing.
+    nodes: Vec<WideNode<N>>,
+    blocks: Vec<RecordBlock<N>>,
+    spheres: Vec<SphereRecord>,
+    counts: [usize; 2],
+    depth: usize,
+}
+
+impl<const N: usize> Wide<N> {
+    /// Converts a build tree.
+    pub(crate) fn new(primitives: &Primitives, tree: build::Tree) -> Self {
+        let build::Tree { root, order: mut references } = tree;
+        let mut wide = Wide {
+            nodes: Vec::new(),
+            blocks: Vec::new(),
+            spheres: Vec::with_capacity(primitives.spheres.len()),
+            counts: primitives.counts(),
+            depth: 0,
+        };
+        let mut of_spheres = Vec::new();
+        if let Some(root) = root {
+            let references = &mut references;
+            let of_spheres = &mut of_spheres;
+            let mut converter = Converter { primitives, references, of_spheres, wide: &mut wide };
+            converter.node(root, 1);
+        }
+        let blocks = wide.blocks.len() as u32;
+        for (node, lane) in of_spheres {
+            wide.nodes[node].children[lane].0 += blocks << 4;
+        }
+        wide
+    }
+
+    /// The nodes; the first is the root.
+    #[inline(always)]
+    pub(crate) fn nodes(&self) -> &[WideNode<N>] {
+        &self.nodes
+    }
+
+    /// The blocks in slots of a leaf; none if they are of spheres.
+    #[inline(always)]
+    pub(crate) fn blocks(&self, slots: &Range<usize>) -> &[RecordBlock<N>] {
+        self.blocks.get(slots.clone()).unwrap_or_default()
+    }
+
+    /// The spheres in slots of a leaf; none if they are of blocks.
+    #[inline(always)]
+    pub(crate) fn spheres(&self, slots: &Range<usize>) -> &[SphereRecord] {
+        let blocks = self.blocks.len();
+        match slots.start.checked_sub(blocks) {
+            Some(first) => &self.spheres[first..slots.end - blocks],
+            None => &[],
+        }
+    }
+
+    /// The primitives in slots of a leaf.
+    pub(crate) fn prims(&self, slots: &Range<usize>) -> impl Iterator<Item = u32> {
+        let triangles = self.blocks(slots).iter().flat_map(RecordBlock::prims);
+        triangles.chain(self.spheres(slots).iter().map(|sphere| sphere.prim))
+    }
+
+    /// The number of nodes on the longest way from the root down.
+    pub(crate) fn depth(&self) -> usize {
+        self.depth
+    }
+
+    /// How many primitives all leaves have together.
+    pub(crate) fn references(&self) -> usize {
+        self.blocks.iter().map(|block| block.prims().count()).sum::<usize>() + self.spheres.len()
+    }
+
+    /// The memory of nodes and primitives.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.nodes) + size_of_val(&*self.blocks) + size_of_val(&*self.spheres)
+    }
+}
+
+impl<const N: usize> Refit for Wide<N> {
+    fn counts(&self) -> [usize; 2] {
+        self.counts
+    }
+
+    fn replace(&mut self, primitives: &Primitives, own_boxes: &[Aabb]) {
+        for block in &mut self.blocks {
+            let records: Vec<_> = block.prims().map(|prim| record(primitives, prim)).collect();
+            *block = RecordBlock::new(&records);
+        }
+        for record in &mut self.spheres {
+            *record = sphere(primitives, record.prim);
+        }
+        // Those below a node come after it.
+        for i in (0..self.nodes.len()).rev() {
+            let mut node = self.nodes[i];
+            for (lane, child) in node.children.into_iter().enumerate() {
+                if child == Child::NONE {
+                    continue;
+                }
+                let aabb = match child.find() {
+                    Ok(node) => self.nodes[node].bounds(),
+                    Err(slots) => {
+                        let boxes = self.prims(&slots).map(|prim| &own_boxes[prim as usize]);
+                        boxes.fold(Aabb::EMPTY, |all, one| all.union(one))
+                    }
+                };
+                node.set_box(lane, &aabb);
+            }
+            self.nodes[i] = node;
+        }
+    }
+}
+
+fn record(primitives: &Primitives, prim: u32) -> Record {
+    Method::default().record(&primitives.triangles[prim as usize], prim)
+}
+
+fn sphere(primitives: &Primitives, prim: u32) -> SphereRecord {
+    SphereRecord { sphere: primitives.spheres[prim as usize - primitives.triangles.len()], prim }
+}
+
+/// A layout that grows.
+struct Converter<'a, const N: usize> {
+    primitives: &'a Primitives,
+    references: &'a mut [Reference],
+    wide: &'a mut Wide<N>,
+    /// The nodes and lanes whose slots count from the first sphere's.
+    of_spheres: &'a mut Vec<(usize, usize)>,
+}
+
+impl<const N: usize> Converter<'_, N> {
+    /// Lays out a node and all below, and returns where it is.
+    fn node(&mut self, node: build::Node, depth: usize) -> usize {
+        let at = self.wide.nodes.len();
+        self.wide.nodes.push(WideNode::EMPTY);
+        self.wide.depth = self.wide.depth.max(depth);
+        for (lane, node) in self.open(node).into_iter().enumerate() {
+            self.wide.nodes[at].set_box(lane, &node.aabb);
+            let child = if self.parts(&node) > 0 {
+                Child::node(self.node(node, depth + 1))
+            } else {
+                self.leaf(&node, (at, lane))
+            };
+            self.wide.nodes[at].children[lane] = child;
+        }
+        at
+    }
+
+    /// At most N nodes that have all that this one has.
+    fn open(&mut self, node: build::Node) -> Vec<build::Node> {
+        let parts = self.parts(&node);
+        let mut nodes = vec![(node, parts)];
+        loop {
+            let fits = |parts| parts > 0 && nodes.len() - 1 + parts <= N;
+            let largest = (0..nodes.len()).filter(|&i| fits(nodes[i].1)).max_by(|&i, &j| {
+                let area = |i: usize| nodes[i].0.aabb.half_area();
+                area(i).total_cmp(&area(j))
+            });
+            let Some(largest) = largest else {
+                return nodes.into_iter().map(|(node, _)| node).collect();
+            };
+            let (node, _) = nodes.swap_remove(largest);
+            for part in self.part(node) {
+                let parts = self.parts(&part);
+                nodes.push((part, parts));
+            }
+        }
+    }
+
+    /// How many nodes [`part`](Converter::part) makes of one; 0 for what is a leaf here.
+    fn parts(&self, node: &build::Node) -> usize {
+        match &node.content {
+            _ if self.is_block(node) => 0,
+            Content::Inner(children) if children.len() > N => 2,
+            Content::Inner(children) => children.len(),
+            Content::Leaf(range) => {
+                let references = &self.references[range.clone()];
+                let spheres = references.iter().filter(|one| self.is_sphere(one)).count();
+                let of_both = spheres > 0 && spheres < references.len();
+                if of_both || references.len() > MAX_SLOTS { 2 } else { 0 }
+            }
+        }
+    }
+
+    /// A node's children, or the halves of those if they are more than N, or of a leaf if it is of
+    /// two kinds or too large.
+    fn part(&mut self, node: build::Node) -> Vec<build::Node> {
+        match node.content {
+            Content::Inner(children) if children.len() > N => halves(children.into_vec()).into(),
+            Content::Inner(children) => children.into_vec(),
+            Content::Leaf(Range { start, end }) => {
+                let triangles = self.primitives.triangles.len() as u32;
+                let references = &mut self.references[start..end];
+                references.sort_by_key(|one| one.prim() >= triangles);
+                let first = references.partition_point(|one| one.prim() < triangles);
+                let count = references.len();
+                let first = if first > 0 && first < count { first } else { count / 2 };
+                [start..start + first, start + first..end]
+                    .map(|range| {
+                        let boxes =
+                            self.references[range.clone()].iter().map(|r| r.bounds().aabb());
+                        let aabb = boxes.fold(Aabb::EMPTY, |all, one| all.union(&one));
+                        build::Node { aabb, content: Content::Leaf(range) }
+                    })
+                    .into()
+            }
+        }
+    }
+
+    fn is_sphere(&self, reference: &Reference) -> bool {
+        reference.prim() as usize >= self.primitives.triangles.len()
+    }
+
+    /// Whether all below is triangles, and no more than N.
+    fn is_block(&self, node: &build::Node) -> bool {
+        let mut room = N;
+        self.fits(node, &mut room)
+    }
+
+    /// Whether all below is triangles that fit into the room that is left.
+    fn fits(&self, node: &build::Node, room: &mut usize) -> bool {
+        match &node.content {
+            Content::Inner(children) => children.iter().all(|child| self.fits(child, room)),
+            Content::Leaf(range) => {
+                let left = room.checked_sub(range.len());
+                *room = left.unwrap_or_default();
+                let mut references = self.references[range.clone()].iter();
+                left.is_some() && !references.any(|one| self.is_sphere(one))
+            }
+        }
+    }
+
+    /// Lays out the primitives of all leaves below; `place` is the child's.
+    fn leaf(&mut self, node: &build::Node, place: (usize, usize)) -> Child {
+        let mut prims = Vec::new();
+        node.leaves(&mut |_, range| {
+            prims.extend(self.references[range].iter().map(Reference::prim));
+        });
+        // Of a box that was cut there may be several pieces.
+        prims.sort_unstable();
+        prims.dedup();
+        let triangle = (prims[0] as usize) < self.primitives.triangles.len();
+        if triangle {
+            let blocks = &mut self.wide.blocks;
+            let first = blocks.len();
+            for prims in prims.chunks(N) {
+                let records: Vec<_> = prims.iter().map(|&i| record(self.primitives, i)).collect();
+                blocks.push(RecordBlock::new(&records));
+            }
+            Child::leaf(first..blocks.len())
+        } else {
+            self.of_spheres.push(place);
+            let first = self.wide.spheres.len();
+            self.wide.spheres.extend(prims.iter().map(|&prim| sphere(self.primitives, prim)));
+            Child::leaf(first..self.wide.spheres.len())
+        }
+    }
+}
+
+/// Two nodes with one half each of some nodes, parted where their boxes' centres are furthest apart.
+fn halves(mut nodes: Vec<build::Node>) -> [build::Node; 2] {
+    let center = |node: &build::Node, axis: usize| node.aabb.min()[axis] + node.aabb.max()[axis];
+    let centers = nodes
+        .iter()
+        .fold(Aabb::EMPTY, |all, node| all.union(&Aabb::point(node.aabb.min() + node.aabb.max())));
+    let axis = centers.extent().max_position();
+    nodes.sort_by(|a, b| center(a, axis).total_cmp(&center(b, axis)));
+    let right = nodes.split_off(nodes.len() / 2);
+    [nodes, right].map(|children| {
+        let aabb = children.iter().fold(Aabb::EMPTY, |all, child| all.union(&child.aabb));
+        build::Node { aabb, content: Content::Inner(children.into()) }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec3, Vec3Swizzles};
+    use simd4::{Level, Simd, SimdMask, dispatch};
+
+    use super::*;
+    use crate::bvh::{Builder, Sequential};
+    use crate::geom::{Sphere, Triangle};
+    use crate::packet::Packet;
+    use crate::{Ray, slab::robust};
+
+    /// Triangles and balls of all sizes.
+    fn heap() -> Primitives {
+        let at = |i: usize, k: usize| (Vec3::new(0.61, 1.37, 2.71) * (i * k) as f32).map(f32::sin);
+        let size = |i: usize| if i.is_multiple_of(7) { 1.0 } else { 0.05 };
+        let triangle = |i| [3, 5, 7].map(|k| at(i, 2) + at(i, k) * size(i));
+        let triangles = (0..400).map(|i| Triangle { corners: triangle(i) }).collect();
+        let sphere = |i| Sphere { center: at(i, 11), radius: 0.2 * size(i) };
+        Primitives { triangles, spheres: (0..40).map(sphere).collect() }
+    }
+
+    /// That boxes contain what is in them, and how often each primitive is in a leaf.
+    fn looked_through<const N: usize>(wide: &Wide<N>, scene: &Primitives) -> Vec<u32> {
+        let own_boxes: Vec<_> = scene.own_boxes().collect();
+        let mut found = vec![0; scene.len()];
+        for (at, node) in wide.nodes.iter().enumerate() {
+            for (lane, child) in node.children.iter().enumerate() {
+                let side = |axis: usize, side: usize| node.sides[axis][side][lane];
+                let aabb = Aabb { axes: [0, 1, 2].map(|axis| [side(axis, 0), side(axis, 1)]) };
+                match child.find() {
+                    _ if *child == Child::NONE => assert_eq!(aabb, Aabb::EMPTY),
+                    Ok(below) => {
+                        assert!(below > at);
+                        assert_eq!(aabb.union(&wide.nodes[below].bounds()), aabb);
+                    }
+                    Err(slots) => {
+                        let triangles = wide.blocks(&slots).iter().flat_map(RecordBlock::prims);
+                        let spheres = wide.spheres(&slots).iter().map(|sphere| sphere.prim);
+                        for prim in triangles.chain(spheres).map(|prim| prim as usize) {
+                            assert_eq!(aabb.union(&own_boxes[prim]), aabb);
+                            found[prim] += 1;
+                        }
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    fn once_each<const N: usize>() {
+        let scene = heap();
+        for builder in [Builder::BinnedSah, Builder::SweepSah, Builder::Insertion] {
+            let mut wide = Wide::<N>::new(&scene, builder.build(&scene, &Sequential));
+            assert_eq!(looked_through(&wide, &scene), vec![1; scene.len()], "{builder:?}");
+            let most = wide.nodes.len() * (N - 1) + 1;
+            let leaves = wide.nodes.iter().flat_map(|node| &node.children);
+            let leaves = leaves.filter(|child| **child != Child::NONE && child.find().is_err());
+            assert!(leaves.count() <= most, "{builder:?}: a tree");
+
+            let mut moved = scene.clone();
+            moved.triangles.reverse();
+            moved.spheres.reverse();
+            let own_boxes: Vec<_> = moved.own_boxes().collect();
+            wide.replace(&moved, &own_boxes);
+            assert_eq!(looked_through(&wide, &moved), vec![1; scene.len()], "{builder:?}, moved");
+        }
+    }
+
+    #[test]
+    fn every_primitive_is_in_a_leaf_and_every_box_in_its_node() {
+        once_each::<4>();
+        once_each::<8>();
+    }
+
+    #[inline(always)]
+    fn meets_nothing<S: Simd>(s: S, ray: &Ray) -> bool {
+        let packet = Packet::<S::f32x8>::splat(s, ray);
+        let Ok(frame) = packet.frame(s) else { return false };
+        let nothing = WideNode::<8>::EMPTY;
+        robust::may_hit(s, &nothing, &packet, &frame, packet.tmax).none()
+    }
+
+    #[test]
+    fn no_ray_meets_a_lane_without_a_child() {
+        let special = [0.0, -0.0, 1.0, -1e-45, f32::MAX, f32::MIN, f32::NAN];
+        let pairs = || special.into_iter().flat_map(|x| special.map(|y| [x, y]));
+        for ([x, y], [dx, dy]) in pairs().flat_map(|at| pairs().map(move |dir| (at, dir))) {
+            let (at, dir) = (Vec3::new(x, y, 0.5), Vec3::new(dx, dy, -0.0));
+            for (origin, dir) in [(at, dir), (dir, at), (at.zxy(), dir.yzx())] {
+                let ray = Ray::new(origin, dir);
+                for level in Level::available() {
+                    let nothing = dispatch!(level, s => meets_nothing(s, &ray));
+                    assert!(nothing, "{level}: {ray:?}");
+                }
+            }
+        }
+    }
+}

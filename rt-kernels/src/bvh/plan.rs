@@ -1,0 +1,49 @@
+//! What there is to choose of a hierarchy.
+
+use super::Builder;
+use crate::tri::Method;
+
+/// What hierarchy to build. The hits depend on the triangle test alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Plan {
+    /// How it is built.
+    pub builder: Builder,
+    /// How it lies in memory, as far as there is code for the triangle test: see
+    /// [`Plan::layout`].
+    pub layout: Layout,
+    /// The triangle test.
+    pub method: Method,
+}
+
+impl Plan {
+    /// The layout that it comes to: wide nodes are for the default triangle test alone.
+    pub fn layout(&self) -> Layout {
+        if self.method == Method::default() { self.layout } else { Layout::Skip }
+    }
+}
+
+/// How a hierarchy lies in memory, and with that how it is traversed. The hits do not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Layout {
+    /// Depth first with skip pointers ([`SkipArray`](super::layout::SkipArray)): for rays in packets.
+    #[default]
+    Skip,
+    /// Four children a node ([`Wide`](super::layout::Wide)): for rays one by one, as bounce has them.
+    Bvh4,
+    /// Eight children a node.
+    Bvh8,
+}
+
+impl Layout {
+    /// All of them, the default first.
+    pub const ALL: [Layout; 3] = [Layout::Skip, Layout::Bvh4, Layout::Bvh8];
+
+    /// What it is called, on the command line too.
+    pub fn name(self) -> &'static str {
+        match self {
+            Layout::Skip => "skip",
+            Layout::Bvh4 => "bvh4",
+            Layout::Bvh8 => "bvh8",
+        }
+    }
+}
