@@ -8,7 +8,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args as Group, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
 use rt_render::{AccelKind, Builder, Exec, Integrator, Layout, Level, Method, PacketSize, Plan};
-use rt_scene::Light;
+use rt_scene::{Light, Scene};
 
 use crate::error::Error;
 
@@ -57,6 +57,8 @@ pub(crate) struct RenderArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
 
+    #[command(flatten)]
+    pub(crate) tessellate: TessellateArgs,
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
     #[command(flatten)]
@@ -118,6 +120,26 @@ pub(crate) struct ShadingArgs {
     /// Let light through everything.
     #[arg(long)]
     pub(crate) no_shadows: bool,
+}
+
+/// What is made of a scene before anything else.
+#[derive(Group)]
+pub(crate) struct TessellateArgs {
+    /// Make triangles of all that is curved: 12 N² of a sphere, 8 N of a cone or cylinder. Without
+    /// N it is 4, at which the Standard Procedural Databases count their triangles.
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "4",
+          value_parser = clap::value_parser!(u32).range(1..=1024))]
+    tessellate: Option<u32>,
+}
+
+impl TessellateArgs {
+    /// A scene that was opened, or its tessellation.
+    pub(crate) fn apply(&self, scene: Scene) -> Result<Scene, Error> {
+        match self.tessellate {
+            Some(resolution) => Ok(rt_scene::tessellate(scene, resolution)?),
+            None => Ok(scene),
+        }
+    }
 }
 
 /// How exact the picture is.
@@ -252,11 +274,12 @@ fn named_level(name: &str, asked: String) -> Result<Level, Error> {
 
 /// Write a procedural scene to a file.
 ///
-/// The extension of the file tells the format: .nff, or .obj for scenes of polygons alone. Without
-/// a file, NFF goes to standard output.
+/// The extension of the file tells the format: .nff, or .obj for scenes of polygons alone, which
+/// --tessellate makes of any. Without a file, NFF goes to standard output.
 #[derive(Group)]
 #[command(after_help = "Examples:\n  \
     rt gen balls -o balls.nff\n  \
+    rt gen rings --tessellate -o rings.obj\n  \
     rt gen balls --size 2 | less")]
 pub(crate) struct GenArgs {
     #[arg(help = names())]
@@ -264,6 +287,8 @@ pub(crate) struct GenArgs {
     /// The scene's size factor [default: the scene's own].
     #[arg(long, value_name = "N")]
     pub(crate) size: Option<u32>,
+    #[command(flatten)]
+    pub(crate) tessellate: TessellateArgs,
     /// The .nff or .obj file to write; - for standard output [default: -].
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
@@ -275,6 +300,8 @@ pub(crate) struct GenArgs {
 pub(crate) struct InfoArgs {
     #[arg(help = SCENE)]
     pub(crate) scene: Option<OsString>,
+    #[command(flatten)]
+    pub(crate) tessellate: TessellateArgs,
     /// Answer as JSON.
     #[arg(long)]
     pub(crate) json: bool,
@@ -294,6 +321,8 @@ pub(crate) struct InfoArgs {
 pub(crate) struct BenchArgs {
     #[arg(value_name = "SCENE", required = true, help = SCENE)]
     pub(crate) scenes: Vec<OsString>,
+    #[command(flatten)]
+    pub(crate) tessellate: TessellateArgs,
     /// Width and height in pixels.
     #[arg(short, long, value_name = "WxH", value_parser = size, default_value = "512x512")]
     pub(crate) size: (u32, u32),

@@ -27,4 +27,11 @@ pub fn check(read: Result<Scene, Error>) {
         let sound = sphere.center.is_finite() && sphere.radius.is_finite() && sphere.radius > 0.0;
         assert!(sound, "no sphere: {sphere:?}");
     }
+    for cone in &scene.cones {
+        assert!(all_in(&[cone.material], materials), "no such material: {cone:?}");
+        let (ends, radii) = ([cone.base, cone.apex], [cone.base_radius, cone.apex_radius]);
+        let finite = ends.iter().all(|end| end.is_finite()) && radii.iter().all(|r| r.is_finite());
+        let sound = ends[0] != ends[1] && radii.iter().all(|&r| r >= 0.0) && radii != [0.0; 2];
+        assert!(finite && sound, "no cone: {cone:?}");
+    }
 }

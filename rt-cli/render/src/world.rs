@@ -184,10 +184,15 @@ pub fn bounds(scene: &Scene) -> Aabb {
     let corners = mesh.triangles.iter().flat_map(|triangle| triangle.position);
     let points = corners.map(|i| mesh.positions[i as usize]);
     let flat = points.fold(Aabb::EMPTY, |all, point| all.union(&Aabb::point(point)));
-    scene.spheres.iter().fold(flat, |all, sphere| {
+    let round = scene.spheres.iter().fold(flat, |all, sphere| {
         let r = Vec3::splat(sphere.radius);
         all.union(&Aabb::new(sphere.center - r, sphere.center + r))
-    })
+    });
+    scene
+        .cones
+        .iter()
+        .map(rt_scene::Cone::bounds)
+        .fold(round, |all, (low, high)| all.union(&Aabb::new(low, high)))
 }
 
 /// The power of two that brings the greatest coordinate near 1, if it is not within 2^±20 already:

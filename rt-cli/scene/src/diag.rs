@@ -49,6 +49,16 @@ pub enum Error {
         /// The least and the greatest size.
         range: (u32, u32),
     },
+    /// A tessellation would have too many triangles.
+    #[error("{name} has more than {limit} triangles at resolution {resolution}")]
+    TooFine {
+        /// The scene.
+        name: String,
+        /// The resolution that was asked for.
+        resolution: u32,
+        /// The greatest number of triangles.
+        limit: u128,
+    },
     /// The format that was asked for cannot express the scene.
     #[error("{0}")]
     Inexpressible(String),

@@ -1,7 +1,7 @@
 //! Scene descriptions: what is there, not how it is traced.
 //!
-//! [`Scene`] is plain data: a triangle mesh, quadrics that stay quadrics, materials, lights and a
-//! view. It comes from a file ([`obj`], [`nff`]) or from a procedure ([`spd`]); [`open`] takes
+//! [`Scene`] is plain data: a triangle mesh, quadrics that stay quadrics until someone
+//! [tessellates](tessellate()) them, materials, lights and a view. It comes from a file ([`obj`], [`nff`]) or from a procedure ([`spd`]); [`open`] takes
 //! either by name.
 //!
 //! Readers take what is found in the wild and say what they left out ([`Facts`]). What they cannot
@@ -14,6 +14,7 @@ mod model;
 pub mod nff;
 pub mod obj;
 pub mod spd;
+mod tessellate;
 mod text;
 mod triangulate;
 
@@ -21,7 +22,8 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 pub use diag::{Diagnostic, Error};
-pub use model::{Facts, Light, Material, Mesh, Scene, Skipped, Sphere, Triangle, View};
+pub use model::{Cone, Facts, Light, Material, Mesh, Scene, Skipped, Sphere, Triangle, View};
+pub use tessellate::{SPD_RESOLUTION, tessellate};
 
 /// Opens a scene by name: `spd:NAME[:SIZE]` is generated, anything else is a file whose extension
 /// tells its format.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Everything a renderer needs to know of a scene. Coordinates are in world space, right-handed,
 /// in the units of the file.
@@ -12,9 +12,11 @@ pub struct Scene {
     pub name: String,
     /// All triangles, from whatever kind of flat primitive they came.
     pub mesh: Mesh,
-    /// Spheres: kept as such, never tessellated.
+    /// Spheres: they stay such until someone [tessellates](crate::tessellate()) them.
     pub spheres: Vec<Sphere>,
-    /// The materials that triangles and spheres index. Never empty in a scene that was opened.
+    /// Cones and cylinders: likewise.
+    pub cones: Vec<Cone>,
+    /// The materials that all these index. Never empty in a scene that was opened.
     pub materials: Vec<Material>,
     /// Point lights. Empty where the file states none.
     pub lights: Vec<Light>,
@@ -27,20 +29,25 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The least and the greatest coordinates of triangles and spheres; none if there are neither.
+    /// The least and the greatest coordinates of all that is there; none if there is nothing.
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         let points = self.mesh.positions.iter().map(|&point| (point, point));
         let spheres = self.spheres.iter().map(|sphere| {
             let radius = Vec3::splat(sphere.radius);
             (sphere.center - radius, sphere.center + radius)
         });
-        points.chain(spheres).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+        let cones = self.cones.iter().map(Cone::bounds);
+        points.chain(spheres).chain(cones).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
     /// What every reader does last: looks the scene over.
     pub(crate) fn finish(&mut self) {
         if self.materials.is_empty() {
             self.materials.push(Material::default());
+        }
+        if !self.cones.is_empty() {
+            let (what, why) = ("cone".to_owned(), CONES_ARE_NOT_DRAWN.to_owned());
+            self.facts.skipped.push(Skipped { what, why, count: self.cones.len() as u64 });
         }
         let flat = self.mesh.triangles.iter().filter(|triangle| self.mesh.area(triangle) == 0.0);
         match flat.count() {
@@ -53,6 +60,9 @@ impl Scene {
         }
     }
 }
+
+/// Why a picture lacks them.
+pub(crate) const CONES_ARE_NOT_DRAWN: &str = "cones and cylinders are drawn with --tessellate only";
 
 /// Triangles with shared vertices.
 #[derive(Clone, Debug, Default)]
@@ -93,6 +103,32 @@ pub struct Sphere {
     pub radius: f32,
     /// Index into [`Scene::materials`].
     pub material: u32,
+}
+
+/// The mantle of a truncated cone, or of a cylinder if the radii are equal; it has no caps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// The centre of one end; finite.
+    pub base: Vec3,
+    /// The radius there; finite and at least zero.
+    pub base_radius: f32,
+    /// The centre of the other end; finite, and not the base.
+    pub apex: Vec3,
+    /// The radius there; finite and at least zero, but not both are zero.
+    pub apex_radius: f32,
+    /// Index into [`Scene::materials`].
+    pub material: u32,
+}
+
+impl Cone {
+    /// The least and the greatest coordinates.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let axis = (self.apex.as_dvec3() - self.base.as_dvec3()).normalize();
+        // How far a circle of radius 1 about the axis reaches along each coordinate.
+        let reach = (DVec3::ONE - axis * axis).max(DVec3::ZERO).map(f64::sqrt).as_vec3();
+        let (base, apex) = (reach * self.base_radius, reach * self.apex_radius);
+        ((self.base - base).min(self.apex - apex), (self.base + base).max(self.apex + apex))
+    }
 }
 
 /// Phong's reflection model, in linear colour.

@@ -37,7 +37,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Error> {
     show(&format!("{:<width$} {}\n", "scene", compared.head()))?;
     let mut rows = Vec::new();
     for name in &args.scenes {
-        let mut scene = rt_scene::open(name)?;
+        let mut scene = args.tessellate.apply(rt_scene::open(name)?)?;
         let view = scene.view.take();
         let scene_name = scene.name.clone();
         let worlds = worlds(&scene, args, compared)?;

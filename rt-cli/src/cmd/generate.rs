@@ -12,7 +12,7 @@ pub(crate) fn run(args: &GenArgs) -> Result<(), Error> {
     let path = args.output.as_deref().unwrap_or(Path::new("-"));
     let format = output::format(path, &["nff", "obj"])?;
     let output = Output::open(path)?;
-    let scene = rt_scene::spd::generate(&args.name, args.size)?;
+    let scene = args.tessellate.apply(rt_scene::spd::generate(&args.name, args.size)?)?;
     let mut text = Vec::new();
     match format {
         "obj" => rt_scene::obj::write(&scene, None, &mut text)?,

@@ -34,7 +34,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
 
     args.picture.size.map_or(Ok(()), check_size)?;
 
-    let mut scene = rt_scene::open(&args.scene)?;
+    let mut scene = args.tessellate.apply(rt_scene::open(&args.scene)?)?;
     if !args.quiet {
         ui::warnings(&scene);
     }

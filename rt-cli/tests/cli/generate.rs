@@ -32,6 +32,19 @@ fn the_extension_tells_the_format_and_without_one_it_is_nff() {
     assert_eq!(run.stderr, "error: cannot write a.txt: give it the extension .nff or .obj\n");
 }
 
+/// The same triangles in the same order, with the same normals; materials differ in what OBJ holds.
+#[test]
+fn a_tessellation_is_the_same_in_a_file() {
+    let scratch = Scratch::new();
+    let run = scratch.rt(&["gen", "rings", "--size", "1", "--tessellate", "-o", "rings.obj"]);
+    assert_eq!(run.exits(0).stderr, "rings.obj: 30 cylinders, 1 polygon, 30 spheres\n");
+    let look = ["-s", "60x40", "--integrator", "normals", "--background", "0,0,0"];
+    let view = ["--eye=-1,-2.6,0.5", "--target=-1,-1.6,0.5", "--up=0,0,1", "--fov=45"];
+    let flags = [&look[..], &view].concat();
+    let pixels = |scene: &[&str]| Picture::decode(&scratch.png(&[scene, &flags].concat())).pixels;
+    assert!(pixels(&["rings.obj"]) == pixels(&["spd:rings:1", "--tessellate"]));
+}
+
 #[test]
 fn the_size_without_a_flag_is_the_scene_s_own() {
     let scratch = Scratch::new();

@@ -47,6 +47,25 @@ fn primitives_are_what_the_file_states_and_triangles_what_is_traced() {
 }
 
 #[test]
+fn tessellated_primitives_are_stated_as_such_and_traced_as_triangles() {
+    let scratch = Scratch::new();
+    for (flags, triangles) in
+        [(&["--tessellate"][..], 10 * 192 + 2), (&["--tessellate", "1"], 10 * 12 + 2), (&[], 2)]
+    {
+        let args = [&["info", "spd:balls:1", "--json"], flags].concat();
+        let info = scratch.rt(&args).exits(0).json();
+        assert_eq!(info["triangles"], triangles);
+        assert_eq!(info["primitives"].to_string(), r#"{"polygon":1,"sphere":10}"#);
+    }
+    for bad in ["0", "1025", "x"] {
+        scratch.rt(&["info", "spd:balls:1", "--tessellate", bad]).exits(2);
+    }
+    let run = scratch.rt(&["info", "spd:balls:7", "--tessellate"]).exits(1);
+    let message = "spd:balls:7 has more than 268435456 triangles at resolution 4";
+    assert_eq!(run.stderr, format!("error: {message}\n"));
+}
+
+#[test]
 fn a_scene_s_facts_as_text() {
     let scratch = Scratch::new();
     scratch.file("a.obj", TRIANGLE);

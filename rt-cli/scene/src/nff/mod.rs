@@ -1,13 +1,14 @@
 //! Haines's Neutral File Format.
 //!
 //! Statements are words and numbers; where lines break does not matter. Read are `v`, `b`, `l`,
-//! `f`, `s`, `p`, `pp`; cones and cylinders (`c`) are counted and left out.
+//! `f`, `s`, `c`, `p` and `pp`.
 //!
 //! What the format leaves open is decided thus: surfaces have two sides; highlights and mirror
 //! reflections are grey, both of strength Ks; lights without a colour are white, each of intensity
 //! 1/√n where there are n lights, as the programs of the Standard Procedural Databases have it.
 
 mod read;
+mod surface;
 mod write;
 
 use std::path::Path;
@@ -17,6 +18,7 @@ use crate::model::Scene;
 use crate::text::read_file;
 
 pub use read::parse;
+pub(crate) use surface::{Surface, Surfaces};
 pub use write::write;
 
 /// Reads an NFF file.

@@ -1,11 +1,10 @@
 //! The NFF reader.
 
-use std::collections::HashMap;
-
 use glam::{DVec3, Vec3};
 
+use super::{Surface, Surfaces};
 use crate::diag::{Diagnostic, Error, MAX_DIAGNOSTICS, plural};
-use crate::model::{Light, Material, Scene, Skipped, Sphere, Triangle, View};
+use crate::model::{Cone, Light, Scene, Skipped, Sphere, Triangle, View};
 use crate::spd::white_light;
 use crate::text::{Lexer, Source, Word};
 use crate::triangulate::Triangulator;
@@ -23,7 +22,7 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<Scene, Error> {
         scene: Scene { name: crate::base_name(name), ..Scene::default() },
         uncolored: Vec::new(),
         surface: None,
-        surfaces: HashMap::new(),
+        surfaces: Surfaces::default(),
         triangulator: Triangulator::default(),
         counts: Counts::default(),
     };
@@ -36,6 +35,8 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<Scene, Error> {
 struct Counts {
     inside_out: u64,
     without_radius: u64,
+    inside_out_cones: u64,
+    flat_cones: u64,
     transparent: u64,
 }
 
@@ -47,8 +48,8 @@ struct Reader<'a> {
     /// Lights that state no colour.
     uncolored: Vec<usize>,
     /// What `f` states, until something needs it.
-    surface: Option<[f32; 8]>,
-    surfaces: HashMap<Option<[u32; 8]>, u32>,
+    surface: Option<Surface>,
+    surfaces: Surfaces,
     triangulator: Triangulator,
     counts: Counts,
 }
@@ -83,7 +84,7 @@ impl<'a> Reader<'a> {
             b"l" => self.light(),
             b"f" => self.surface(),
             b"s" => self.sphere(keyword),
-            b"c" => self.cone(),
+            b"c" => self.cone(keyword),
             b"p" => self.polygon("p"),
             b"pp" => self.polygon("pp"),
             _ => {
@@ -170,7 +171,7 @@ impl<'a> Reader<'a> {
     }
 
     fn surface(&mut self) -> Checked {
-        let surface: [f32; 8] = self.numbers("f")?;
+        let surface: Surface = self.numbers("f")?;
         self.counts.transparent += u64::from(surface[6] > 0.0);
         self.surface = Some(surface);
         // A later draft of the format adds an ambient part.
@@ -181,21 +182,7 @@ impl<'a> Reader<'a> {
 
     /// The material of what is stated now.
     fn material(&mut self) -> u32 {
-        let materials = &mut self.scene.materials;
-        let bits = self.surface.map(|surface| surface.map(f32::to_bits));
-        *self.surfaces.entry(bits).or_insert_with(|| {
-            materials.push(self.surface.map_or_else(
-                Material::default,
-                |[r, g, b, kd, ks, shine, ..]| Material {
-                    diffuse: Vec3::new(r, g, b) * kd,
-                    specular: Vec3::splat(ks),
-                    shininess: shine,
-                    mirror: Vec3::splat(ks.max(0.0)),
-                    ..Material::default()
-                },
-            ));
-            materials.len() as u32 - 1
-        })
+        self.surfaces.index(&mut self.scene.materials, self.surface)
     }
 
     fn sphere(&mut self, keyword: Word<'a>) -> Checked {
@@ -217,9 +204,25 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn cone(&mut self) -> Checked {
-        let [.., base, _, _, _, apex] = self.numbers::<8>("c")?;
-        self.state(if base == apex { "cylinder" } else { "cone" });
+    fn cone(&mut self, keyword: Word<'a>) -> Checked {
+        let numbers = self.numbers::<8>("c")?;
+        let [x, y, z, base_radius, apex_x, apex_y, apex_z, apex_radius] = numbers;
+        let (base, apex) = (Vec3::new(x, y, z), Vec3::new(apex_x, apex_y, apex_z));
+        self.state(if base_radius == apex_radius { "cylinder" } else { "cone" });
+        let [base_size, apex_size] = [base_radius, apex_radius].map(f32::abs);
+        if base_size.max(apex_size) == 0.0 || base == apex {
+            self.counts.flat_cones += 1;
+            return Ok(());
+        }
+        self.counts.inside_out_cones += u64::from(base_radius.min(apex_radius) < 0.0);
+        let reach = base.abs().max(apex.abs()) + Vec3::splat(base_size.max(apex_size));
+        if !reach.is_finite() {
+            let message = "the cone reaches beyond the range of single precision".to_owned();
+            return Err(self.error(keyword.at, message));
+        }
+        let material = self.material();
+        let (base_radius, apex_radius) = (base_size, apex_size);
+        self.scene.cones.push(Cone { base, base_radius, apex, apex_radius, material });
         Ok(())
     }
 
@@ -258,17 +261,15 @@ impl<'a> Reader<'a> {
         for &light in &self.uncolored {
             scene.lights[light].color = white_light(scene.lights.len());
         }
-        for kind in ["cone", "cylinder"] {
-            if let Some(&count) = scene.facts.stated.get(kind) {
-                let why = "cones and cylinders are not drawn yet".to_owned();
-                scene.facts.skipped.push(Skipped { what: kind.to_owned(), why, count });
+        let counts = self.counts;
+        let mut skip = |what: &str, why: &str, count| {
+            if count > 0 {
+                let (what, why) = (what.to_owned(), why.to_owned());
+                scene.facts.skipped.push(Skipped { what, why, count });
             }
-        }
-        let Counts { inside_out, without_radius, transparent } = self.counts;
-        if without_radius > 0 {
-            let (what, why) = ("sphere".to_owned(), "its radius is zero".to_owned());
-            scene.facts.skipped.push(Skipped { what, why, count: without_radius });
-        }
+        };
+        skip("sphere", "its radius is zero", counts.without_radius);
+        skip("cone", "its ends are one point, or both its radii are zero", counts.flat_cones);
         let mut warn = |count: u64, noun: &str, what: &str| {
             if count > 0 {
                 let many = plural(count, noun);
@@ -276,8 +277,9 @@ impl<'a> Reader<'a> {
             }
         };
         let of_negative = "of negative radius, to be seen from inside only: seen from both sides";
-        warn(inside_out, "sphere", of_negative);
-        warn(transparent, "surface", "with transmittance: drawn opaque");
+        warn(counts.inside_out, "sphere", of_negative);
+        warn(counts.inside_out_cones, "cone", of_negative);
+        warn(counts.transparent, "surface", "with transmittance: drawn opaque");
         scene.facts.warnings.extend(self.triangulator.warning());
         scene.finish();
         self.scene

@@ -49,6 +49,12 @@ impl<W: Write> Writer<'_, W> {
             let Vec3 { x, y, z } = sphere.center;
             writeln!(self.out, "s {x} {y} {z} {}", sphere.radius)?;
         }
+        for cone in &scene.cones {
+            self.change_surface(scene, &mut material, cone.material)?;
+            let (Vec3 { x, y, z }, Vec3 { x: ax, y: ay, z: az }) = (cone.base, cone.apex);
+            let (radius, a_radius) = (cone.base_radius, cone.apex_radius);
+            writeln!(self.out, "c {x} {y} {z} {radius} {ax} {ay} {az} {a_radius}")?;
+        }
         Ok(())
     }
 

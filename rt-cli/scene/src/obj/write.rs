@@ -12,12 +12,14 @@ use crate::model::{Material, Scene};
 /// Writes a scene's triangles as OBJ. Read back, every coordinate has the same bits. `library` is
 /// the name of the file that [`write_library`] writes; without it no materials are stated.
 ///
-/// An OBJ holds neither spheres, which are an error, nor lights nor a view, which are left out.
+/// An OBJ holds neither spheres nor cones, which are an error, nor lights nor a view, which are left out.
 pub fn write(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> Result<(), Error> {
-    if !scene.spheres.is_empty() {
-        let spheres = plural(scene.spheres.len() as u64, "sphere");
-        let message = format!("an OBJ file cannot hold {}'s {spheres}: write an NFF", scene.name);
-        return Err(Error::Inexpressible(message));
+    for (count, kind) in [(scene.spheres.len(), "sphere"), (scene.cones.len(), "cone")] {
+        if count > 0 {
+            let (name, many) = (&scene.name, plural(count as u64, kind));
+            let message = format!("an OBJ file cannot hold {name}'s {many}: write an NFF");
+            return Err(Error::Inexpressible(message));
+        }
     }
     write_mesh(scene, library, out).map_err(Error::Write)
 }

@@ -3,10 +3,12 @@
 //! Every rotation of the original is given by sines and cosines that square roots express, so no
 //! angle is ever computed and the numbers are the same on every machine.
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec3};
 
-use super::{Procedure, white_lights};
-use crate::model::{Material, Mesh, Scene, Sphere, Triangle, View};
+use super::Procedure;
+use super::stage::{Stage, view};
+use super::turn::rotation;
+use crate::model::Scene;
 
 pub(super) const PROCEDURE: Procedure = Procedure {
     name: "balls",
@@ -16,72 +18,29 @@ pub(super) const PROCEDURE: Procedure = Procedure {
     generate,
 };
 
-const FLOOR: u32 = 0;
-const BALLS: u32 = 1;
-
 /// A child's radius by its parent's.
 const SHRINK: f64 = 1.0 / 3.0;
 
 fn generate(size: u32) -> Scene {
-    let mut scene = Scene {
-        mesh: Mesh {
-            positions: [[12.0, 12.0], [-12.0, 12.0], [-12.0, -12.0], [12.0, -12.0]]
-                .map(|[x, y]| Vec3::new(x, y, -0.5))
-                .to_vec(),
-            normals: Vec::new(),
-            triangles: [[0, 1, 2], [0, 2, 3]]
-                .map(|position| Triangle { position, normal: None, material: FLOOR })
-                .to_vec(),
-        },
-        materials: materials().to_vec(),
-        lights: white_lights(&[
-            Vec3::new(4.0, 3.0, 2.0),
-            Vec3::new(1.0, -4.0, 4.0),
-            Vec3::new(-3.0, 1.0, 5.0),
-        ]),
-        background: Some(Vec3::new(0.078, 0.361, 0.753)),
-        view: Some(View {
-            eye: Vec3::new(2.1, 1.3, 1.7),
-            target: Vec3::ZERO,
-            up: Vec3::Z,
-            fov_y: 45.0,
-            size: Some((512, 512)),
-        }),
-        ..Scene::default()
-    };
-    grow(&mut scene.spheres, &directions(), size, DVec3::ZERO, 0.5, DVec3::Z);
-    scene.facts.stated.insert("polygon", 1);
-    scene.facts.stated.insert("sphere", scene.spheres.len() as u64);
-    scene
-}
-
-fn materials() -> [Material; 2] {
-    let floor = Material {
-        diffuse: Vec3::new(1.0, 0.75, 0.33) * 0.8,
-        shininess: 100_000.0,
-        ..Material::default()
-    };
-    let balls = Material {
-        diffuse: Vec3::new(1.0, 0.9, 0.7) * 0.5,
-        specular: Vec3::splat(0.5),
-        mirror: Vec3::splat(0.5),
-        shininess: 3.0827,
-        ..Material::default()
-    };
-    [floor, balls]
+    let lights = [[4.0, 3.0, 2.0], [1.0, -4.0, 4.0], [-3.0, 1.0, 5.0]];
+    let mut stage = Stage::new(view([2.1, 1.3, 1.7], [0.0; 3]), &lights);
+    stage.surface([1.0, 0.75, 0.33, 0.8, 0.0, 100_000.0, 0.0, 1.0]);
+    stage.ground(12.0, -0.5);
+    stage.surface([1.0, 0.9, 0.7, 0.5, 0.5, 3.0827, 0.0, 1.0]);
+    grow(&mut stage, &directions(), size, DVec3::ZERO, 0.5, DVec3::Z);
+    stage.finish()
 }
 
 /// Adds a sphere that grew in some direction, and its descendants.
 fn grow(
-    spheres: &mut Vec<Sphere>,
+    stage: &mut Stage,
     directions: &[DVec3; 9],
     generations: u32,
     center: DVec3,
     radius: f64,
     direction: DVec3,
 ) {
-    let stored = Sphere { center: center.as_vec3(), radius: radius as f32, material: BALLS };
-    spheres.push(stored);
+    stage.sphere(center, radius);
     if generations == 0 {
         return;
     }
@@ -90,7 +49,7 @@ fn grow(
     for &way in directions {
         let child = center + turn * way * distance;
         let direction = (child - center) / distance;
-        grow(spheres, directions, generations - 1, child, radius * SHRINK, direction);
+        grow(stage, directions, generations - 1, child, radius * SHRINK, direction);
     }
 }
 
@@ -121,12 +80,4 @@ fn from_z_to(direction: DVec3) -> DMat3 {
         let axis = DVec3::new(-direction.y, direction.x, 0.0);
         rotation(axis / axis.length(), cosine, (1.0 - cosine * cosine).sqrt())
     }
-}
-
-/// Rodrigues' rotation about a unit axis, counterclockwise seen against it.
-fn rotation(axis: DVec3, cosine: f64, sine: f64) -> DMat3 {
-    let column = |unit: DVec3| {
-        unit * cosine + axis.cross(unit) * sine + axis * (axis.dot(unit) * (1.0 - cosine))
-    };
-    DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
 }

@@ -4,10 +4,15 @@
 //! Applications 7(11), 1987, and the programs published with it.
 
 mod balls;
+mod rings;
+mod stage;
+mod tree;
+mod turn;
+
+use glam::Vec3;
 
 use crate::diag::Error;
-use crate::model::{Light, Scene};
-use glam::Vec3;
+use crate::model::Scene;
 
 /// A scene that is computed.
 pub struct Procedure {
@@ -23,7 +28,7 @@ pub struct Procedure {
 }
 
 /// All scenes, by name.
-pub const PROCEDURES: &[Procedure] = &[balls::PROCEDURE];
+pub const PROCEDURES: &[Procedure] = &[balls::PROCEDURE, rings::PROCEDURE, tree::PROCEDURE];
 
 /// Computes the scene of this name.
 pub fn generate(name: &str, size: Option<u32>) -> Result<Scene, Error> {
@@ -60,14 +65,8 @@ impl Procedure {
     }
 }
 
-/// Lights for which a scene states no colour: white, and the dimmer the more there are, as the
-/// programs of the databases have it for renderers that take an intensity.
-pub(crate) fn white_lights(positions: &[Vec3]) -> Vec<Light> {
-    let color = white_light(positions.len());
-    positions.iter().map(|&position| Light { position, color }).collect()
-}
-
-/// The colour of each of so many lights.
+/// The colour of each of so many lights for which a scene states none: white, and the dimmer the
+/// more there are, as the programs of the databases have it for renderers that take an intensity.
 pub(crate) fn white_light(count: usize) -> Vec3 {
     Vec3::splat(1.0 / (count as f32).sqrt())
 }

@@ -10,3 +10,4 @@ mod polygons;
 mod samples;
 mod spd;
 mod support;
+mod tessellate;

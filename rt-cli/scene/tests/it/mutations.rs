@@ -94,7 +94,8 @@ fn check(result: &Result<Scene, Error>, bytes: usize) {
     let mesh = &scene.mesh;
     let memory = 12 * (mesh.positions.capacity() + mesh.normals.capacity())
         + 32 * mesh.triangles.capacity()
-        + 20 * scene.spheres.capacity();
+        + 20 * scene.spheres.capacity()
+        + 36 * scene.cones.capacity();
     assert!(memory <= 64 * bytes + 4096, "{memory} bytes for {bytes}");
     assert!(mesh.positions.iter().chain(&mesh.normals).all(|v| v.is_finite()));
     let materials = scene.materials.len() as u32;
@@ -110,6 +111,12 @@ fn check(result: &Result<Scene, Error>, bytes: usize) {
         assert!(sphere.center.is_finite() && sphere.radius.is_finite() && sphere.radius > 0.0);
         assert!(sphere.material < materials);
     }
+    for cone in &scene.cones {
+        let [base, apex] = [cone.base_radius, cone.apex_radius];
+        assert!(cone.base.is_finite() && cone.apex.is_finite() && cone.base != cone.apex);
+        assert!(base.max(apex).is_finite() && base.max(apex) > 0.0 && base.min(apex) >= 0.0);
+        assert!(cone.material < materials);
+    }
     for m in &scene.materials {
         let colors = [m.diffuse, m.specular, m.mirror, m.emission];
         assert!(colors.iter().all(|color| color.is_finite()) && m.shininess.is_finite(), "{m:?}");
@@ -122,7 +129,7 @@ fn the_files_are_good() {
     let scene = parse_obj(OBJ.as_bytes(), MTL.as_bytes()).unwrap();
     assert_eq!((scene.mesh.triangles.len(), scene.materials.len()), (7, 2));
     let scene = rt_scene::nff::parse(NFF.as_bytes(), "t.nff").unwrap();
-    assert_eq!((scene.mesh.triangles.len(), scene.spheres.len()), (4, 1));
+    assert_eq!((scene.mesh.triangles.len(), scene.spheres.len(), scene.cones.len()), (4, 1, 1));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use proptest::prelude::*;
-use rt_scene::{Light, Material, Skipped, Sphere};
+use rt_scene::{Cone, Light, Material, Skipped, Sphere};
 
 use crate::support::{error, headlines, nff, obj};
 
@@ -53,13 +53,30 @@ fn everything_that_is_read() {
 }
 
 #[test]
-fn cones_are_counted_and_passed_over() {
-    let scene = nff("c 0 0 0 1 0 0 1 0.5\nc\n0 0 0 1\n0 0 1 1\ns 0 0 0 1\n").unwrap();
-    let why = "cones and cylinders are not drawn yet";
-    let skipped = |what: &str| Skipped { what: what.into(), why: why.into(), count: 1 };
-    assert_eq!(scene.facts.skipped, [skipped("cone"), skipped("cylinder")]);
-    assert_eq!(scene.spheres.len(), 1);
-    assert_eq!(scene.facts.stated["cone"], 1);
+fn cones_and_cylinders() {
+    let text = "c 0 0 0 1 0 0 1 0.5\nc\n0 0 0 1\n0 0 1 1\nc 0 0 0 0 1 2 3 4\n";
+    let scene = nff(text).unwrap();
+    let cone = |base_radius, apex: [f32; 3], apex_radius| {
+        let (base, apex) = (Vec3::ZERO, Vec3::from_array(apex));
+        Cone { base, base_radius, apex, apex_radius, material: 0 }
+    };
+    let [up, away] = [[0.0, 0.0, 1.0], [1.0, 2.0, 3.0]];
+    assert_eq!(scene.cones, [cone(1.0, up, 0.5), cone(1.0, up, 1.0), cone(0.0, away, 4.0)]);
+    let stated: Vec<_> = scene.facts.stated.into_iter().collect();
+    assert_eq!(stated, [("cone", 2), ("cylinder", 1)]);
+}
+
+#[test]
+fn odd_cones() {
+    let text = "c 0 0 0 -1 0 0 1 -0.5\nc 1 2 3 1 1 2 3 2\nc 0 0 0 0 0 0 1 0\nc 0 0 0 -1 0 0 1 1\n";
+    let scene = nff(text).unwrap();
+    let radii: Vec<_> = scene.cones.iter().map(|c| (c.base_radius, c.apex_radius)).collect();
+    assert_eq!(radii, [(1.0, 0.5), (1.0, 1.0)]);
+    let (what, why) = ("cone".into(), "its ends are one point, or both its radii are zero".into());
+    assert_eq!(scene.facts.skipped[0], Skipped { what, why, count: 2 });
+    let expected =
+        "t.nff: 2 cones of negative radius, to be seen from inside only: seen from both sides";
+    assert_eq!(scene.facts.warnings, [expected]);
 }
 
 #[test]
@@ -114,6 +131,8 @@ fn what_is_wrong_and_where() {
         ("s 1 1e99 2 3", "1:5: '1e99' is beyond the range of single precision"),
         ("b 1 2 1.#INF\ns 0 0 0 1", "1:7: expected a number, found '1.#INF'"),
         ("s 3e38 0 0 3e38", "1:1: the sphere reaches beyond the range of single precision"),
+        ("c 0 0 3e38 3e38 0 0 0 1", "1:1: the cone reaches beyond the range of single precision"),
+        ("c 1 2 3 4\n5 6 7", "2:6: expected 8 numbers after 'c', found 7"),
         ("p 2\n0 0 0\n1 1 1", "1:3: expected 3 or more vertices after 'p', found '2'"),
         ("pp -1", "1:4: expected 3 or more vertices after 'pp', found '-1'"),
         ("p", "1:2: expected 3 or more vertices after 'p', found the end of the file"),

@@ -24,8 +24,10 @@ fn names_that_lead_nowhere() {
     let format = "cannot tell the format of bunny.ply: files that are read end in .obj or .nff";
     assert_eq!(message("bunny.ply"), format);
     assert_eq!(message("obj"), format.replace("bunny.ply", "obj"));
-    assert_eq!(message("spd:foo"), "unknown scene 'spd:foo': there is spd:balls");
-    assert_eq!(message("spd:foo:3"), "unknown scene 'spd:foo': there is spd:balls");
+    for name in ["spd:foo", "spd:foo:3"] {
+        let message = message(name);
+        assert!(message.starts_with("unknown scene 'spd:foo': there is spd:balls, "), "{message}");
+    }
     assert_eq!(message("spd:balls:8"), "spd:balls has no size '8': sizes go from 0 to 7");
     assert_eq!(message("spd:balls:x"), "spd:balls has no size 'x': sizes go from 0 to 7");
     assert_eq!(message("spd:balls:"), "spd:balls has no size '': sizes go from 0 to 7");
