@@ -51,7 +51,8 @@ const TIDY: usize = 3;
 const QUICK: usize = 4;
 
 /// The packages outside the workspace.
-const NESTED: [&str; 2] = ["simd4/compare/Cargo.toml", "tests/fuzz/Cargo.toml"];
+const NESTED: [&str; 3] =
+    ["simd4/compare/Cargo.toml", "tests/fuzz/Cargo.toml", "xtask/peers/Cargo.toml"];
 
 /// Checks, tests and reports; true if all is well.
 pub(crate) fn ci(sh: &Shell, options: Options) -> bool {

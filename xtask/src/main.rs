@@ -11,6 +11,7 @@ mod cross;
 mod fuzz;
 mod levels;
 mod matrix;
+mod peers;
 mod programs;
 mod report;
 mod setup;
@@ -47,6 +48,9 @@ usage: cargo xtask <command>
                     rooms, and which crate uses which
   fuzz obj|mtl|nff [--seconds N]
                     random input for a reader, guided by coverage, for a minute or so long
+  peers [ARGUMENTS] our kernels beside Embree's and those of other crates, on the same rays; Embree
+                    is loaded from what `pip install embreex` installs. peers --help has more:
+                      cargo xtask peers --scenes bunny --isa avx2 --rays primary --size 512
   coverage          which lines the tests of this machine reach
   bless             let the golden tests rewrite tests/golden; read the diff afterwards
 
@@ -66,6 +70,8 @@ enum Command {
     },
     /// `fuzz`
     Fuzz(fuzz::Options),
+    /// `peers`, with arguments of its own
+    Peers(Vec<String>),
     /// `coverage`
     Coverage,
     /// `bless`
@@ -78,6 +84,9 @@ impl Command {
     /// Understands the arguments after the program's name, or says which of them it does not.
     fn parse(args: &[&str]) -> Result<Command, String> {
         let (&name, rest) = args.split_first().ok_or("which command?")?;
+        if name == "peers" {
+            return Ok(Command::Peers(rest.iter().map(|&arg| arg.to_owned()).collect()));
+        }
         // What comes after `--` is for another program.
         let own = rest.split(|arg| *arg == "--").next().unwrap_or_default();
         if [name].iter().chain(own).any(|arg| ["--help", "-h"].contains(arg)) {
@@ -131,6 +140,7 @@ fn main() -> ExitCode {
         Command::Cross(options) => cross::cross(&sh, &options).map(|()| true),
         Command::Asm { bless } => Ok(asm::asm(&sh, bless)),
         Command::Fuzz(options) => fuzz::fuzz(&sh, &options).map(|()| true),
+        Command::Peers(args) => peers::peers(&sh, &args).map(|()| true),
         Command::Coverage => coverage::coverage(&sh).map(|()| true),
         Command::Bless => bless(&sh).map(|()| true),
         Command::Help => {
@@ -179,6 +189,9 @@ mod tests {
         assert_eq!(Command::parse(&["asm", "--bless"]), Ok(Command::Asm { bless: true }));
         assert_eq!(Command::parse(&["tidy"]), ci(false, Scope::Tidy));
         assert_eq!(Command::parse(&["bless"]), Ok(Command::Bless));
+        let args = ["--quick", "--help"];
+        let peers = Ok(Command::Peers(args.map(str::to_owned).to_vec()));
+        assert_eq!(Command::parse(&["peers", "--quick", "--help"]), peers);
     }
 
     #[test]

@@ -1,0 +1,111 @@
+//! The scenes: triangles, a camera and a light.
+
+use std::path::{Path, PathBuf};
+
+use glam::Vec3;
+use rt_render::fitted_view;
+use rt_scene::{Scene, View};
+
+/// What is measured without `--scenes`.
+pub(crate) const ALL: [&str; 4] = ["balls", "bunny", "dragon", "conference"];
+
+/// Where the files are, from the root of the repository.
+const FOLDER: &str = "../shared/scenes/obj";
+
+/// Views of scenes whose files have none, and which are not to be seen from the front.
+const VIEWS: [(&str, View, Vec3); 1] = [(
+    "conference",
+    View {
+        eye: Vec3::new(900.0, 300.0, 400.0),
+        target: Vec3::new(-200.0, 150.0, -400.0),
+        up: Vec3::Y,
+        fov_y: 60.0,
+        size: None,
+    },
+    Vec3::new(300.0, 600.0, -200.0),
+)];
+
+/// Triangles, and what is seen of them.
+pub(crate) struct Mesh {
+    pub(crate) name: String,
+    pub(crate) vertices: Vec<[f32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) view: View,
+    pub(crate) light: Vec3,
+}
+
+impl Mesh {
+    /// Opens a scene by its name in [`ALL`], as a file, or as `spd:NAME`. Spheres are tessellated.
+    pub(crate) fn open(name: &str) -> Result<Mesh, String> {
+        let path = match name {
+            "balls" => PathBuf::from("spd:balls"),
+            _ if ALL.contains(&name) => Path::new(FOLDER).join(name).with_extension("obj"),
+            _ => PathBuf::from(name),
+        };
+        let mut scene = rt_scene::open(&path).map_err(|error| error.to_string())?;
+        tessellate(&mut scene);
+        let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+        let name = stem.trim_start_matches("spd:").to_owned();
+        let bounds = rt_render::bounds(&scene);
+        let known = VIEWS.iter().find(|(known, ..)| *known == name);
+        let view = scene.view.take().or(known.map(|(_, view, _)| *view));
+        let view = view.unwrap_or_else(|| fitted_view(&bounds, (512, 512), Vec3::Y, 45.0));
+        let stated = scene.lights.first().map(|light| light.position);
+        let light = stated.or(known.map(|(.., light)| *light)).unwrap_or_else(|| beside(&view));
+        let triangles: Vec<_> = scene.mesh.triangles.iter().map(|t| t.position).collect();
+        if triangles.is_empty() {
+            return Err(format!("{name} has no triangles"));
+        }
+        let vertices = scene.mesh.positions.iter().map(|point| point.to_array()).collect();
+        Ok(Mesh { name, vertices, triangles, view, light })
+    }
+
+    /// The corners of a triangle.
+    pub(crate) fn corners(&self, triangle: usize) -> [Vec3; 3] {
+        self.triangles[triangle].map(|i| self.vertices[i as usize].into())
+    }
+}
+
+/// A light for scenes without one: over the right shoulder.
+fn beside(view: &View) -> Vec3 {
+    let back = view.eye - view.target;
+    let right = view.up.cross(back).normalize_or(Vec3::X);
+    let up = back.cross(right).normalize_or(Vec3::Y);
+    view.eye + (right + up) * back.length() * 0.5
+}
+
+/// Squares along an edge of the cube that becomes a sphere: 192 triangles, as in the SPD.
+const CELLS: i32 = 4;
+
+/// Turns spheres into triangles.
+fn tessellate(scene: &mut Scene) {
+    for sphere in std::mem::take(&mut scene.spheres) {
+        for face in 0..6 {
+            let first = scene.mesh.positions.len() as u32;
+            for (u, v) in (0..=CELLS).flat_map(|u| (0..=CELLS).map(move |v| (u, v))) {
+                let angle = |i: i32| {
+                    ((i * 2 - CELLS) as f32 / CELLS as f32 * 0.25 * std::f32::consts::PI).tan()
+                };
+                let side = if face < 3 { 1.0 } else { -1.0 };
+                let mut at = [0.0; 3];
+                at[face % 3] = side;
+                at[(face + 1) % 3] = angle(u) * side;
+                at[(face + 2) % 3] = angle(v);
+                let point = Vec3::from_array(at).normalize();
+                scene.mesh.positions.push(sphere.center + point * sphere.radius);
+            }
+            for (u, v) in (0..CELLS).flat_map(|u| (0..CELLS).map(move |v| (u, v))) {
+                let at = |u: i32, v: i32| first + (u * (CELLS + 1) + v) as u32;
+                let [a, b, c, d] = [at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)];
+                for position in [[a, b, c], [a, c, d]] {
+                    let material = sphere.material;
+                    scene.mesh.triangles.push(rt_scene::Triangle {
+                        position,
+                        normal: None,
+                        material,
+                    });
+                }
+            }
+        }
+    }
+}
