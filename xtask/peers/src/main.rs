@@ -29,7 +29,7 @@ use report::{Cell, Row};
 #[derive(Parser)]
 #[command(name = "cargo xtask peers")]
 struct Args {
-    /// Scenes: balls, bunny, dragon, conference, an OBJ or NFF file, or spd:NAME.
+    /// Scenes: balls, rings, tree, bunny, dragon, conference, an OBJ or NFF file, or spd:NAME:SIZE.
     #[arg(long, value_delimiter = ',', default_values_t = mesh::ALL.map(String::from))]
     scenes: Vec<String>,
     /// Instructions: sse4, avx2, avx512, native.

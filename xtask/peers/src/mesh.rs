@@ -4,10 +4,13 @@ use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use rt_render::fitted_view;
-use rt_scene::{Scene, View};
+use rt_scene::{SPD_RESOLUTION, View, tessellate};
 
 /// What is measured without `--scenes`.
-pub(crate) const ALL: [&str; 4] = ["balls", "bunny", "dragon", "conference"];
+pub(crate) const ALL: [&str; 6] = ["balls", "rings", "tree", "bunny", "dragon", "conference"];
+
+/// Those of them that are computed.
+const COMPUTED: [&str; 3] = ["balls", "rings", "tree"];
 
 /// Where the files are, from the root of the repository.
 const FOLDER: &str = "../shared/scenes/obj";
@@ -35,15 +38,16 @@ pub(crate) struct Mesh {
 }
 
 impl Mesh {
-    /// Opens a scene by its name in [`ALL`], as a file, or as `spd:NAME`. Spheres are tessellated.
+    /// Opens a scene by its name in [`ALL`], as a file, or as `spd:NAME`. What is
+    /// curved is tessellated.
     pub(crate) fn open(name: &str) -> Result<Mesh, String> {
         let path = match name {
-            "balls" => PathBuf::from("spd:balls"),
+            _ if COMPUTED.contains(&name) => PathBuf::from(format!("spd:{name}")),
             _ if ALL.contains(&name) => Path::new(FOLDER).join(name).with_extension("obj"),
             _ => PathBuf::from(name),
         };
-        let mut scene = rt_scene::open(&path).map_err(|error| error.to_string())?;
-        tessellate(&mut scene);
+        let scene = rt_scene::open(&path).and_then(|scene| tessellate(scene, SPD_RESOLUTION));
+        let mut scene = scene.map_err(|error| error.to_string())?;
         let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
         let name = stem.trim_start_matches("spd:").to_owned();
         let bounds = rt_render::bounds(&scene);
@@ -72,40 +76,4 @@ fn beside(view: &View) -> Vec3 {
     let right = view.up.cross(back).normalize_or(Vec3::X);
     let up = back.cross(right).normalize_or(Vec3::Y);
     view.eye + (right + up) * back.length() * 0.5
-}
-
-/// Squares along an edge of the cube that becomes a sphere: 192 triangles, as in the SPD.
-const CELLS: i32 = 4;
-
-/// Turns spheres into triangles.
-fn tessellate(scene: &mut Scene) {
-    for sphere in std::mem::take(&mut scene.spheres) {
-        for face in 0..6 {
-            let first = scene.mesh.positions.len() as u32;
-            for (u, v) in (0..=CELLS).flat_map(|u| (0..=CELLS).map(move |v| (u, v))) {
-                let angle = |i: i32| {
-                    ((i * 2 - CELLS) as f32 / CELLS as f32 * 0.25 * std::f32::consts::PI).tan()
-                };
-                let side = if face < 3 { 1.0 } else { -1.0 };
-                let mut at = [0.0; 3];
-                at[face % 3] = side;
-                at[(face + 1) % 3] = angle(u) * side;
-                at[(face + 2) % 3] = angle(v);
-                let point = Vec3::from_array(at).normalize();
-                scene.mesh.positions.push(sphere.center + point * sphere.radius);
-            }
-            for (u, v) in (0..CELLS).flat_map(|u| (0..CELLS).map(move |v| (u, v))) {
-                let at = |u: i32, v: i32| first + (u * (CELLS + 1) + v) as u32;
-                let [a, b, c, d] = [at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)];
-                for position in [[a, b, c], [a, c, d]] {
-                    let material = sphere.material;
-                    scene.mesh.triangles.push(rt_scene::Triangle {
-                        position,
-                        normal: None,
-                        material,
-                    });
-                }
-            }
-        }
-    }
 }
