@@ -7,7 +7,8 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{Args as Group, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
-use rt_render::{AccelKind, Builder, Exec, Integrator, Layout, Level, Method, PacketSize, Plan};
+use rt_render::{AccelKind, Builder, Exec, Integrator, KdBuilder, Layout, Level, Mailbox, Method};
+use rt_render::{PacketSize, Plan};
 use rt_scene::{Light, Scene};
 
 use crate::error::Error;
@@ -185,6 +186,9 @@ pub(crate) struct MachineArgs {
     /// What finds the hits.
     #[arg(long, value_enum, value_name = "KIND", default_value_t)]
     accel: AccelArg,
+    /// How the kd-tree is built.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t)]
+    kd_builder: KdBuilderArg,
     #[command(flatten)]
     build: BuildArgs,
 }
@@ -247,6 +251,14 @@ impl MachineArgs {
     pub(crate) fn accel(&self) -> AccelKind {
         match self.accel {
             AccelArg::Bvh => AccelKind::Bvh,
+            AccelArg::Kd => {
+                let builder = match self.kd_builder {
+                    KdBuilderArg::Sweep => KdBuilder::Sweep,
+                    KdBuilderArg::Binned => KdBuilder::Binned,
+                    KdBuilderArg::Median => KdBuilder::Median,
+                };
+                AccelKind::Kd { builder, mailbox: Mailbox::default() }
+            }
             AccelArg::Brute => AccelKind::Brute,
         }
     }
@@ -421,8 +433,21 @@ enum AccelArg {
     /// A bounding volume hierarchy.
     #[default]
     Bvh,
+    /// A kd-tree.
+    Kd,
     /// Every ray against every primitive.
     Brute,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum KdBuilderArg {
+    /// The surface area heuristic wherever a primitive begins or ends.
+    Sweep,
+    /// The surface area heuristic at the borders of bins.
+    #[default]
+    Binned,
+    /// In the middle of the longest axis.
+    Median,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]

@@ -13,6 +13,8 @@ pub struct Stats {
     pub triangle_tests: u64,
     /// Tests of one ray against one sphere.
     pub sphere_tests: u64,
+    /// Tests of one ray against one primitive that a [mailbox](crate::mailbox) spared.
+    pub mailed: u64,
 }
 
 impl AddAssign for Stats {
@@ -21,5 +23,6 @@ impl AddAssign for Stats {
         self.box_tests += other.box_tests;
         self.triangle_tests += other.triangle_tests;
         self.sphere_tests += other.sphere_tests;
+        self.mailed += other.mailed;
     }
 }

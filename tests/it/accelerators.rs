@@ -4,13 +4,16 @@ use glam::Vec3;
 use proptest::prelude::*;
 use rt_kernels::geom::Triangle;
 use rt_kernels::tri::Method;
-use rt_kernels::{Accelerator, Brute, Builder, Bvh, Exec, Hits, Layout, PacketSize, Primitives};
+use rt_kernels::{Accelerator, Brute, Builder, Bvh, Exec, Hits, KdBuilder, KdTree, Layout};
+use rt_kernels::{Mailbox, PacketSize, Primitives};
 use rt_kernels::{Ray, Rays, Sequential, Stats};
 use rt_tests::mesh::Mesh;
 use rt_tests::oracle::entry;
 use rt_tests::random::{Random, power};
 use rt_tests::strategies::{RayPlan, config, is_in_range, is_valid, ray, scene};
-use rt_tests::trace::{Bits, any as found_any, bits, closest, closest_bits, every_plan, ways};
+use rt_tests::trace::{
+    Bits, any as found_any, bits, closest, closest_bits, every_kd_plan, every_plan, ways,
+};
 use rt_tests::{aim, rays};
 use simd4::Level;
 
@@ -58,6 +61,14 @@ fn one_answer_with(
         for exec in execs {
             let (builder, layout) = (plan.builder.name(), plan.layout.name());
             same(&want, &format!("{name}, {builder}, {layout}"), &bvh, exec, rays);
+        }
+    }
+    for plan in every_kd_plan(method) {
+        let kd = KdTree::build_with(scene, plan, &Sequential).expect("a scene in range");
+        let default = plan.builder == KdBuilder::default() && plan.mailbox == Mailbox::default();
+        let execs = if default { ways() } else { vec![plainest(), widest()] };
+        for exec in execs {
+            same(&want, &format!("{plan:?}"), &kd, exec, rays);
         }
     }
     hits

@@ -94,7 +94,7 @@ fn every_builder_makes_the_same_picture() {
                 let world = World::build_with(scene.clone(), AccelKind::Bvh, plan, threads)
                     .expect("a scene that can be rendered");
                 let job = job(&world, &scene, Integrator::Whitted, exec);
-                assert_eq!(world.builder(), Some(builder));
+                assert_eq!(world.builder(), Some(builder.name()));
                 let same = picture(&world, &job) == want;
                 assert!(same, "{} differs: {builder:?}, {threads} threads", scene.name);
             }

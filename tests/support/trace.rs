@@ -1,7 +1,8 @@
 //! Running the kernels every way there is.
 
 use rt_kernels::tri::Method;
-use rt_kernels::{Accelerator, Builder, Exec, Hit, Hits, Layout, PacketSize, Plan, Rays, Stats};
+use rt_kernels::{Accelerator, Builder, Exec, Hit, Hits, KdBuilder, KdPlan, Layout, Mailbox};
+use rt_kernels::{PacketSize, Plan, Rays, Stats};
 use simd4::Level;
 
 /// Every level of this machine with every packet size. (A single ray goes the same way at every
@@ -20,6 +21,15 @@ pub fn every_plan(method: Method) -> Vec<Plan> {
         .into_iter()
         .flat_map(|builder| Layout::ALL.map(|layout| Plan { builder, layout, method }));
     plans.filter(|plan| plan.layout() == plan.layout).collect()
+}
+
+/// Every kd-tree that there is for a triangle test: every builder, and every mailbox for one.
+pub fn every_kd_plan(method: Method) -> Vec<KdPlan> {
+    let default = KdPlan { method, ..KdPlan::default() };
+    let mailboxes = [Mailbox::None, Mailbox::Stamps, Mailbox::Hashed(1), Mailbox::Inverse];
+    let mailboxes = mailboxes.map(|mailbox| KdPlan { mailbox, ..default });
+    let builders = KdBuilder::ALL.map(|builder| KdPlan { builder, ..default });
+    builders.into_iter().chain(mailboxes).collect()
 }
 
 /// What a ray hit, bit by bit: t, primitive, u, v.

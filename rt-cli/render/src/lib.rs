@@ -22,6 +22,6 @@ pub use integrate::{Integrator, RayKind};
 pub use job::{Job, RenderError, check_size};
 pub use rt_kernels::geom::Aabb;
 pub use rt_kernels::tri::Method;
-pub use rt_kernels::{Builder, Exec, Layout, PacketSize, Plan};
+pub use rt_kernels::{Builder, Exec, KdBuilder, Layout, Mailbox, PacketSize, Plan};
 pub use simd4::{Level, LevelError};
 pub use world::{AccelKind, World, bounds};

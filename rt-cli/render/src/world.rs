@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use glam::Vec3;
 use rt_kernels::geom::{Aabb, Sphere, Triangle};
 use rt_kernels::tri::Method;
-use rt_kernels::{Accelerator, Brute, BuildError, Builder, Bvh, Exec, Plan, Primitives};
+use rt_kernels::{Accelerator, Brute, BuildError, Bvh, Exec, KdBuilder, KdPlan, KdTree};
+use rt_kernels::{Mailbox, Plan, Primitives};
 use rt_scene::Scene;
 
 use crate::exec::{RayonJoin, on_threads};
@@ -17,6 +18,13 @@ pub enum AccelKind {
     /// A bounding volume hierarchy.
     #[default]
     Bvh,
+    /// A kd-tree.
+    Kd {
+        /// How it is built.
+        builder: KdBuilder,
+        /// What keeps rays from being tested twice.
+        mailbox: Mailbox,
+    },
     /// Every ray against every primitive: for small scenes, as the yardstick.
     Brute,
 }
@@ -26,6 +34,7 @@ impl AccelKind {
     pub fn name(self) -> &'static str {
         match self {
             AccelKind::Bvh => "bvh",
+            AccelKind::Kd { .. } => "kd",
             AccelKind::Brute => "brute",
         }
     }
@@ -83,6 +92,10 @@ impl World {
         let accel = on_threads(threads, || -> Result<Box<dyn Accelerator>, BuildError> {
             Ok(match kind {
                 AccelKind::Bvh => Box::new(Bvh::build_with(&primitives, plan, &RayonJoin)?),
+                AccelKind::Kd { builder, mailbox } => {
+                    let plan = KdPlan { builder, mailbox, method: plan.method };
+                    Box::new(KdTree::build_with(&primitives, plan, &RayonJoin)?)
+                }
                 AccelKind::Brute => Box::new(Brute::build_with(&primitives, plan.method)?),
             })
         })??;
@@ -95,10 +108,11 @@ impl World {
         self.kind
     }
 
-    /// What built it; `None` where nothing is built.
-    pub fn builder(&self) -> Option<Builder> {
+    /// The name of what built it; `None` where nothing is built.
+    pub fn builder(&self) -> Option<&'static str> {
         match self.kind {
-            AccelKind::Bvh => Some(self.plan.builder),
+            AccelKind::Bvh => Some(self.plan.builder.name()),
+            AccelKind::Kd { builder, .. } => Some(builder.name()),
             AccelKind::Brute => None,
         }
     }
@@ -107,6 +121,7 @@ impl World {
     pub fn layout(&self) -> &'static str {
         match self.kind {
             AccelKind::Bvh => self.plan.layout().name(),
+            AccelKind::Kd { .. } => "pairs",
             AccelKind::Brute => "list",
         }
     }

@@ -116,7 +116,7 @@ struct Built {
 
 impl Built {
     fn builder(&self) -> &'static str {
-        self.world.builder().map_or("", Builder::name)
+        self.world.builder().unwrap_or_default()
     }
 
     /// What the hierarchy takes for each primitive, and its copy of that.

@@ -9,7 +9,7 @@ pub(crate) use words::{count, flags, number_of, plural, time};
 use std::path::Path;
 use std::time::Duration;
 
-use rt_render::{Builder, Job, KindReport, Report, World};
+use rt_render::{Job, KindReport, Report, World};
 use rt_scene::Scene;
 use serde_json::{Value, json};
 
@@ -74,7 +74,7 @@ impl Rendered<'_> {
             "isa": job.exec.level.name(),
             "threads": job.threads,
             "accel": world.accel_kind().name(),
-            "builder": world.builder().map(Builder::name),
+            "builder": world.builder(),
             "layout": world.layout(),
             "packet": job.exec.lanes().to_string(),
             "kernel": self.kernel.method().name(),

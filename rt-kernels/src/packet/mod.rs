@@ -14,7 +14,7 @@ mod stream;
 pub use axes::{Axes, OwnAxes, SameAxis};
 pub use boxes::{Boxes, OwnBoxes};
 pub use frame::{Coherent, Frame, Mixed};
-pub use query::{Any, Closest, Query};
+pub use query::{Any, Closest, Either, Query};
 pub use single::{Ask, Single};
 pub use stream::{Hits, Rays};
 

@@ -121,3 +121,44 @@ impl<V: SimdF32> Query<V> for Any<V> {
         self.limit.lt(V::splat(s, 0.0)).all()
     }
 }
+
+/// The closest hit, or whether there is any, as is decided at run time: for whom two loops are too
+/// much to compile.
+#[derive(Clone, Copy, Debug)]
+pub struct Either<V: SimdF32> {
+    closest: Closest<V>,
+    any: bool,
+}
+
+impl<V: SimdF32> Either<V> {
+    /// No hit yet.
+    #[inline(always)]
+    pub fn new(s: V::Simd, packet: &Packet<V>, any: bool) -> Self {
+        Either { closest: Closest::new(s, packet), any }
+    }
+
+    /// Writes the hits of the rays from `first` on: with `any`, only whether there are any.
+    #[inline(always)]
+    pub fn store(self, hits: &mut Hits, first: usize) {
+        self.closest.store(hits, first);
+    }
+}
+
+impl<V: SimdF32> Query<V> for Either<V> {
+    #[inline(always)]
+    fn limit(&self) -> V {
+        self.closest.limit()
+    }
+
+    #[inline(always)]
+    fn record(&mut self, s: V::Simd, mask: V::Mask, prim: V::U32, t: V, u: V, v: V) {
+        // Nothing is closer than what is closer than everything.
+        let t = if self.any { V::splat(s, f32::NEG_INFINITY) } else { t };
+        self.closest.record(s, mask, prim, t, u, v);
+    }
+
+    #[inline(always)]
+    fn done(&self, s: V::Simd) -> bool {
+        self.any && self.limit().lt(V::splat(s, 0.0)).all()
+    }
+}
