@@ -8,28 +8,11 @@ use rt_kernels::{Plan, Primitives, Rays, Sequential, Stats};
 use rt_tests::mesh::Mesh;
 use rt_tests::oracle::plane;
 use rt_tests::random::Random;
-use rt_tests::trace::{any, closest, closest_bits, every_plan};
+use rt_tests::trace::{Threads, any, closest, closest_bits, every_plan};
 use rt_tests::{aim, rays};
 
 fn build(scene: &Primitives, builder: Builder, join: &impl Join) -> Bvh {
     Bvh::build_with(scene, Plan { builder, ..Plan::default() }, join).expect("in range")
-}
-
-/// A thread for one half, and whichever half ends first.
-struct Threads;
-
-impl Join for Threads {
-    fn join<A: Send, B: Send>(
-        &self,
-        a: impl FnOnce() -> A + Send,
-        b: impl FnOnce() -> B + Send,
-    ) -> (A, B) {
-        std::thread::scope(|scope| {
-            let b = scope.spawn(b);
-            let a = a();
-            (a, b.join().expect("no panic"))
-        })
-    }
 }
 
 /// Long triangles and slabs across the axes, askew too, among many small ones; balls of all sizes.

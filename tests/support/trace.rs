@@ -1,7 +1,7 @@
 //! Running the kernels every way there is.
 
 use rt_kernels::tri::Method;
-use rt_kernels::{Accelerator, Builder, Exec, Hit, Hits, KdBuilder, KdPlan, Layout, Mailbox};
+use rt_kernels::{Accelerator, Builder, Exec, Hit, Hits, Join, KdBuilder, KdPlan, Layout, Mailbox};
 use rt_kernels::{PacketSize, Plan, Rays, Stats};
 use simd4::Level;
 
@@ -58,4 +58,21 @@ pub fn any(accel: &impl Accelerator, exec: Exec, rays: &Rays) -> Vec<bool> {
     let mut found = Vec::new();
     accel.any(exec, rays, &mut found, &mut Stats::default());
     found
+}
+
+/// A thread for one half, and whichever half ends first.
+pub struct Threads;
+
+impl Join for Threads {
+    fn join<A: Send, B: Send>(
+        &self,
+        a: impl FnOnce() -> A + Send,
+        b: impl FnOnce() -> B + Send,
+    ) -> (A, B) {
+        std::thread::scope(|scope| {
+            let b = scope.spawn(b);
+            let a = a();
+            (a, b.join().expect("no panic"))
+        })
+    }
 }
