@@ -49,7 +49,8 @@
 //!
 //! Where an accelerator cuts own boxes, the pieces do not contain them. Why that is enough, and why
 //! the pieces may not be made smaller, stands in
-//! [`spatial_splits`](bvh::build::spatial_splits#why-pieces-are-enough).
+//! [`spatial_splits`](bvh::build::spatial_splits#why-pieces-are-enough); why a [kd-tree](kd) may cut
+//! triangles by their planes, [there](kd#why-the-answer-is-one).
 //!
 //! # The range
 //!

@@ -48,17 +48,20 @@ fn one_answer(scene: &Primitives, rays: &Rays) -> usize {
     hits
 }
 
-/// A triangle of any shape: now and then long, now and then in a plane across an axis, far away or
+/// A triangle of any shape: now and then long, or a needle, or in a plane across an axis, far away or
 /// tiny.
 fn shape(random: &mut Random) -> Triangle {
     let mut reach = Vec3::ONE;
     for _ in 0..2 {
-        reach[random.below(3)] = random.pick(&[1.0, 1.0, 0.1, 1e-3, 0.0]);
+        reach[random.below(3)] = random.pick(&[1.0, 1.0, 0.1, 1e-3, 1e-6, 0.0]);
     }
     let away = random.pick(&[0.0, 0.0, 10.0, 1e4]) * random.in_cube();
     let size = random.pick(&[1.0, 1.0, 1e-3, 1e3]);
-    let corners = [random.in_cube(), random.in_cube(), random.in_cube()];
-    Triangle { corners: corners.map(|corner| corner * reach * size + away) }
+    let [a, b, mut c] = [random.in_cube(), random.in_cube(), random.in_cube()];
+    if random.below(4) == 0 {
+        c = aim::between(a, b, random.unit()) + random.in_cube() * random.magnitude(-24, -3);
+    }
+    Triangle { corners: [a, b, c].map(|corner| corner * reach * size + away) }
 }
 
 /// Triangles seen from their edges, whose computed `t` may be anywhere in their depth, among small
@@ -77,7 +80,7 @@ fn a_screen_hides_no_cell() {
         let extent = (a.max(b).max(c) - a.min(b).min(c)).max_element();
         let aimed: Rays = (0..64)
             .map(|_| {
-                let far = f64::from(random.magnitude(0, 10));
+                let far = f64::from(random.magnitude(-6, 10));
                 let mut origin = on([far * f64::from(random.signed()), 2.0 * random.unit()]);
                 if random.below(3) == 0 {
                     origin += random.in_cube() * extent * random.magnitude(-22, 0);

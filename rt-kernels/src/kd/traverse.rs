@@ -120,7 +120,7 @@ fn one_way<V: SimdF32, Q: Query<V>>(
             let split = (V::splat(s, node.at()) - origin) * inv;
             let leave = (split * later).min(far);
             let enter = (split * sooner).max(near);
-            let children = tree.cells.pairs[node.pair()].0;
+            let children = &tree.cells.pairs[node.pair()].0;
             let sign = signs[axis] & 1;
             let [first, second] = [children[sign], children[1 - sign]];
             let (to_first, to_second) = (near.le(leave).any(), enter.le(far).any());
