@@ -5,8 +5,8 @@ use std::path::Path;
 
 use glam::Vec3;
 use rt_render::{
-    AccelKind, Builder, Exec, Film, Integrator, Job, Layout, Level, Plan, Silent, World,
-    fitted_view, render,
+    AccelKind, Builder, Exec, Film, Integrator, Job, KdBuilder, Layout, Level, Mailbox, Plan,
+    Silent, World, fitted_view, render,
 };
 use rt_scene::Scene;
 use rt_tests::hash::fnv1a;
@@ -61,7 +61,9 @@ fn every_way_makes_the_same_picture() {
     let best = Exec::best().expect("a level");
     for scene in scenes() {
         let bvh = world(&scene, AccelKind::Bvh, 1);
-        let others = [world(&scene, AccelKind::Bvh, 2), world(&scene, AccelKind::Brute, 1)];
+        let kd = kd(KdBuilder::default());
+        let others = [AccelKind::Brute, kd].map(|kind| world(&scene, kind, 1));
+        let threaded = [AccelKind::Bvh, kd].map(|kind| world(&scene, kind, 2));
         for integrator in INTEGRATORS {
             let job = |exec, threads| Job { threads, ..job(&bvh, &scene, integrator, exec) };
             let want = picture(&bvh, &job(best, 1));
@@ -72,14 +74,18 @@ fn every_way_makes_the_same_picture() {
             };
             for exec in ways() {
                 same(&bvh, exec, 1);
-                same(&others[1], exec, 1);
+                others.iter().for_each(|world| same(world, exec, 1));
             }
             for threads in [2, 3] {
                 same(&bvh, best, threads);
-                same(&others[0], best, threads);
+                threaded.iter().for_each(|world| same(world, best, threads));
             }
         }
     }
+}
+
+fn kd(builder: KdBuilder) -> AccelKind {
+    AccelKind::Kd { builder, mailbox: Mailbox::default() }
 }
 
 #[test]
@@ -88,15 +94,19 @@ fn every_builder_makes_the_same_picture() {
     for scene in scenes() {
         let want = world(&scene, AccelKind::Brute, 1);
         let want = picture(&want, &job(&want, &scene, Integrator::Whitted, exec));
-        for builder in Builder::ALL {
+        let boxes = Builder::ALL.map(|builder| {
+            let plan = Plan { builder, ..Plan::default() };
+            (AccelKind::Bvh, plan, builder.name())
+        });
+        let cells = KdBuilder::ALL.map(|builder| (kd(builder), Plan::default(), builder.name()));
+        for (kind, plan, builder) in boxes.into_iter().chain(cells) {
             for threads in [1, 2] {
-                let plan = Plan { builder, ..Plan::default() };
-                let world = World::build_with(scene.clone(), AccelKind::Bvh, plan, threads)
+                let world = World::build_with(scene.clone(), kind, plan, threads)
                     .expect("a scene that can be rendered");
                 let job = job(&world, &scene, Integrator::Whitted, exec);
-                assert_eq!(world.builder(), Some(builder.name()));
+                assert_eq!(world.builder(), Some(builder));
                 let same = picture(&world, &job) == want;
-                assert!(same, "{} differs: {builder:?}, {threads} threads", scene.name);
+                assert!(same, "{} differs: {kind:?}, {threads} threads", scene.name);
             }
         }
     }

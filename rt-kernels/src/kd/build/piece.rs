@@ -74,29 +74,20 @@ impl Plane {
     /// For each axis: wherever on the two others, n · x is between bounds that add up, and what it
     /// lacks of ± reach the third has to make up for.
     fn section(&self, whole: &Aabb) -> Option<Aabb> {
-        let n = self.normal.to_array();
-        let mut relative = [[0.0; 2]; 3];
-        for (axis, side) in relative.iter_mut().enumerate() {
-            *side = whole.axes[axis].map(|x| f64::from(x) - self.through[axis]);
-        }
         let mut part = *whole;
         let terms = [0, 1, 2].map(|k| {
-            let [a, b] = relative[k].map(|x| n[k] * x);
+            let [a, b] = whole.axes[k].map(|x| self.normal[k] * (f64::from(x) - self.through[k]));
             [a.min(b), a.max(b)]
         });
-        for k in 0..3 {
-            if n[k] == 0.0 {
+        for (k, [min, max]) in part.axes.iter_mut().enumerate() {
+            let (n, through) = (self.normal[k], self.through[k]);
+            if n == 0.0 {
                 continue;
             }
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            let ends = [
-                (-self.reach - terms[i][1] - terms[j][1]) / n[k],
-                (self.reach - terms[i][0] - terms[j][0]) / n[k],
-            ];
-            let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-            let [min, max] = &mut part.axes[k];
-            *min = min.max(((low + self.through[k]) as f32).next_down());
-            *max = max.min(((high + self.through[k]) as f32).next_up());
+            let [a, b] = [terms[(k + 1) % 3], terms[(k + 2) % 3]];
+            let ends = [(-self.reach - a[1] - b[1]) / n, (self.reach - a[0] - b[0]) / n];
+            *min = min.max(((ends[0].min(ends[1]) + through) as f32).next_down());
+            *max = max.min(((ends[0].max(ends[1]) + through) as f32).next_up());
             if *min > *max {
                 return None;
             }
