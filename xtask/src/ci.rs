@@ -1,7 +1,7 @@
 //! `cargo xtask ci`: everything that must hold before a change goes in.
 
 use crate::cross::cargo;
-use crate::matrix::{Build, TARGETS, Target, Tests, Tier};
+use crate::matrix::{TARGETS, Target, Tests, Tier};
 use crate::programs::Programs;
 use crate::report::{Done, Report};
 use crate::{asm, fuzz, setup, tidy};
@@ -73,7 +73,9 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     };
     let targets: Vec<_> = TARGETS.iter().filter(|target| options.scope.includes(target)).collect();
 
-    // The machine code, of all levels and so of no target in particular.
+    // The machine code, of all levels and so of no target in particular. The program as it is
+    // shipped takes minutes to build: every run reads the one that the tests have built, of which
+    // the compiler inlines less.
     let machine_code = matches!(options.scope, Scope::EveryRun | Scope::All);
 
     let total = checks.len() + usize::from(machine_code) + targets.len();
@@ -88,7 +90,10 @@ pub(crate) fn ci(sh: &Shell, options: Options) -> bool {
     }
     if machine_code {
         announce("asm");
-        asm::check(sh, &mut report, false);
+        asm::operations(sh, &mut report, false);
+        if options.scope == Scope::All {
+            asm::shipped(sh, &mut report);
+        }
     }
     let mut built = None;
     for target in targets {
@@ -120,9 +125,9 @@ impl Scope {
 /// each level.
 fn test(
     sh: &Shell,
-    target: &Target,
+    target: &'static Target,
     options: Options,
-    built: &mut Option<(Build, Programs)>,
+    built: &mut Option<(&'static Target, Programs)>,
     report: &mut Report,
 ) {
     let name = target.name;
@@ -134,7 +139,7 @@ fn test(
         report.step(name, "", || Done::skipped(reason));
         return;
     }
-    if target.is_built_apart() && built.as_ref().is_none_or(|(build, _)| *build != target.build) {
+    if target.is_built_apart() && built.as_ref().is_none_or(|(of, _)| !of.shares_build(target)) {
         *built = None;
         if target.build.triple.is_some() {
             // Code that clippy does not see on the host.
@@ -143,7 +148,7 @@ fn test(
                 succeeds(cargo(sh, target, "clippy").args(args))
             });
         }
-        let build = || Programs::build(sh, target).map(|programs| (target.build, programs));
+        let build = || Programs::build(sh, target).map(|programs| (target, programs));
         report.step(name, "build", || match build() {
             Ok(programs) => {
                 *built = Some(programs);
@@ -151,10 +156,13 @@ fn test(
             }
             Err(reason) => Err(reason).into(),
         });
+        if let Some(rt) = built.as_ref().and_then(|(_, programs)| programs.rt()) {
+            report.step(name, "asm", || asm::binary::check(sh, rt));
+        }
     }
     let none = Programs::default();
     let programs = match built {
-        Some((build, programs)) if *build == target.build => programs,
+        Some((of, programs)) if of.shares_build(target) => programs,
         // What does not build has been said.
         _ if target.is_built_apart() => return,
         _ => &none,
@@ -217,9 +225,15 @@ fn licences(sh: &Shell, _: Options) -> Done {
 
 /// Every bench runs once: that it does, and that what it computes is right. Nothing is timed.
 fn benches(sh: &Shell, _: Options) -> Done {
+    // Of what they measure, unoptimised code will do, and is compiled in a fraction of the time;
+    // all else is shared with the tests.
+    let plain = ["simd4", "rt-kernels"]
+        .map(|name| format!("profile.dev.package.{name}.opt-level=0"))
+        .into_iter()
+        .flat_map(|setting| ["--config".to_owned(), setting]);
     let benches =
-        cmd!(sh, "cargo test --quiet --locked --profile smoke -p simd4 -p rt-kernels --benches");
-    succeeds(benches.ignore_stdout())
+        cmd!(sh, "cargo test --quiet --locked --workspace --bench levels --bench kernels");
+    succeeds(benches.args(plain).ignore_stdout())
 }
 
 /// Passed if the command succeeds; what it prints passes through.

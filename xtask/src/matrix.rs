@@ -36,9 +36,10 @@ pub(crate) static TARGETS: &[Target] = &[
     target("x86-64-v3",     V3,          Directly,                           OfThisCpu,                                   Core,        Some(Core),      Has("avx2"),   EveryRun),
     target("x86-64-v4",     V4,          Directly,                           OfThisCpu,                                   Core,        Some(Core),      Has("avx512"), EveryRun),
     // Other architectures.
-    target("aarch64",       AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Workspace,   Some(Brief),     Linux,         EveryRun),
+    target("aarch64",       AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Core,        Some(Brief),     Linux,         EveryRun),
     target("cortex-a53",    AARCH64,     qemu("aarch64", "cortex-a53"),      These(&["scalar", "neon"]),                  Brief,       None,            Linux,         EveryRun),
     target("cortex-a72",    AARCH64,     qemu("aarch64", "cortex-a72"),      These(&["scalar", "neon"]),                  Brief,       None,            Linux,         EveryRun),
+    target("aarch64-all",   AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Workspace,   None,            Linux,         OnDemand),
     target("i686",          I686,        Directly,                           OfThisCpu,                                   Core,        Some(Core),      LinuxX86,      EveryRun),
     target("wasm32",        WASM32,      Node,                               These(&["scalar"]),                          Core,        None,            Unix,          EveryRun),
     target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Core,        Some(Core),      Unix,          EveryRun),
@@ -227,6 +228,16 @@ impl Target {
             Has(level) => &format!("a CPU with {level}"),
         };
         (!here).then(|| format!("not for this machine: it takes {needed}"))
+    }
+
+    /// Whether its build is of the whole workspace, and not of [`CORE`] alone.
+    pub(crate) fn of_workspace(&self) -> bool {
+        self.build == NATIVE || self.best == Workspace
+    }
+
+    /// Whether its programs are those of another.
+    pub(crate) fn shares_build(&self, other: &Target) -> bool {
+        self.build == other.build && self.of_workspace() == other.of_workspace()
     }
 
     /// Whether building is one thing and running another.

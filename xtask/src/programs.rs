@@ -33,16 +33,18 @@ impl Programs {
     /// Builds all that any target with this build runs.
     pub(crate) fn build(sh: &Shell, target: &Target) -> Result<Programs, String> {
         let mut command = cargo(sh, target, "test").args(["--locked", "--no-run"]);
-        if target.build == Build::default() {
-            command = command.arg("--workspace");
-        } else {
-            // Nobody edits and builds again for these in a loop: in one go it is quicker.
-            command = command.env("CARGO_INCREMENTAL", "0");
-            command = match target.best {
-                // xtask is a tool of the host.
-                Tests::Workspace => command.args(["--workspace", "--exclude", "xtask"]),
-                _ => command.args(CORE.iter().flat_map(|name| ["-p", name])),
-            };
+        command = match target.of_workspace() {
+            true => command.arg("--workspace"),
+            false => command.args(CORE.iter().flat_map(|name| ["-p", name])),
+        };
+        if target.build != Build::default() {
+            // Nobody edits and builds again for these in a loop, or debugs them: in one go and
+            // without the places of lines it is quicker.
+            command = command.env("CARGO_INCREMENTAL", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
+        }
+        if target.of_workspace() && target.build.triple.is_some() {
+            // A tool of the host.
+            command = command.args(["--exclude", "xtask"]);
         }
         Programs::made_by(command)
     }
@@ -53,6 +55,12 @@ impl Programs {
         let shown = command.to_string();
         let messages = command.quiet().read().map_err(|_| format!("this failed: {shown}"))?;
         Ok(Programs::of(&messages))
+    }
+
+    /// The program `rt`, if it is among them.
+    pub(crate) fn rt(&self) -> Option<&Path> {
+        let is_rt = |file: &&PathBuf| file.file_stem().is_some_and(|name| name == "rt");
+        self.others.iter().find(is_rt).map(PathBuf::as_path)
     }
 
     /// Picks the programs out of cargo's messages, one JSON object a line.
@@ -219,6 +227,7 @@ not JSON"#;
         let test =
             |folder: &str, file: &str| TestProgram { folder: folder.into(), file: file.into() };
         assert_eq!(programs.levels, Some("/w/target/levels".into()));
+        assert_eq!(programs.rt(), Some("/w/target/rt".as_ref()));
         assert_eq!(
             programs.tests,
             [test("/w/simd4", "/w/target/c"), test("/w/rt-cli", "/w/target/cli")]

@@ -6,7 +6,7 @@
 //! found in it; the intrinsics among that not in the program `rt` either. The same assembly makes
 //! the [`table`] of instructions that the documentation of simd4 shows.
 
-mod binary;
+pub(crate) mod binary;
 mod build;
 mod count;
 mod flow;
@@ -30,13 +30,14 @@ const SHOWN: usize = 20;
 /// Runs the command: true if nothing failed.
 pub(crate) fn asm(sh: &Shell, bless: bool) -> bool {
     let mut report = Report::default();
-    check(sh, &mut report, bless);
+    operations(sh, &mut report, bless);
+    shipped(sh, &mut report);
     println!("{report}");
     report.ok(false)
 }
 
-/// Checks everything, or with `bless` writes the table and checks the rest.
-pub(crate) fn check(sh: &Shell, report: &mut Report, bless: bool) {
+/// Checks the operations, or with `bless` writes their table and checks the rest.
+pub(crate) fn operations(sh: &Shell, report: &mut Report, bless: bool) {
     let mut table = Table::default();
     for target in &TARGETS {
         report.step("asm", target.name, || match setup::standard_library(sh, target.triple) {
@@ -44,10 +45,17 @@ pub(crate) fn check(sh: &Shell, report: &mut Report, bless: bool) {
             Ok(()) => probe(sh, target, &mut table).into(),
         });
     }
-    report.step("asm", "rt", || binary::intrinsics(sh).and_then(none).into());
     report.step("asm", "table", || match bless {
         true => write(sh, &table).into(),
         false => compare(sh, &table),
+    });
+}
+
+/// Checks the program `rt` as it is shipped.
+pub(crate) fn shipped(sh: &Shell, report: &mut Report) {
+    report.step("asm", "rt", || match binary::shipped(sh) {
+        Ok(program) => binary::check(sh, &program),
+        Err(error) => Err(error).into(),
     });
 }
 
