@@ -142,12 +142,14 @@ impl Programs {
 
     /// The test programs that are asked for.
     fn chosen(&self, tests: Tests) -> impl Iterator<Item = &TestProgram> {
-        let in_core_only = matches!(tests, Tests::Core | Tests::Brief);
-        let in_core = |test: &TestProgram| {
-            let packages = ["simd4", "rt-kernels", "tests"];
-            packages.iter().any(|package| test.folder.ends_with(package))
+        let folders: &[&str] = match tests {
+            Tests::Everything | Tests::Workspace => &[""],
+            Tests::Core | Tests::Brief => &["simd4", "rt-kernels", "tests"],
+            Tests::Conformance => &["simd4"],
         };
-        self.tests.iter().filter(move |test| !in_core_only || in_core(test))
+        let asked_for =
+            |test: &&TestProgram| folders.iter().any(|name| test.folder.ends_with(name));
+        self.tests.iter().filter(asked_for)
     }
 
     /// What runs one of them on the target.
