@@ -11,8 +11,7 @@ use crate::arch::tokens::*;
 pub enum Level {
     /// Plain scalar code, in every build, and what vector units run that stable Rust does not
     /// reach, as the compiler vectorises it. AltiVec is one: its intrinsics are for nightly alone.
-    /// Built for powerpc64le, `f32x4` of this level is VSX all the same (`xvmulsp`, `xvdivsp`,
-    /// `xvsqrtsp`, `xvcmpgtsp` with `xxsel`) and `u32x4` AltiVec (`vadduwm`), four lanes at once.
+    /// What becomes of this level there, [the crate's documentation](crate#the-levels) says.
     Scalar(Scalar),
     /// SSE2: the baseline of x86-64.
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

@@ -22,8 +22,12 @@ pub(crate) fn target(sh: &Shell, target: &Target, install: bool) -> Result<(), S
         Run::Directly => {}
         Run::Qemu { arch, .. } => {
             program(sh, &format!("qemu-{arch}"), &["qemu-user"], install)?;
-            let version = cmd!(sh, "qemu-{arch} --version").quiet().read().unwrap_or_default();
-            is_right(arch, &version)?;
+            let check = || is_right(arch, &version_of(sh, arch), &codename(sh));
+            if check().is_err() && install {
+                let backports = format!("{}-backports", codename(sh));
+                apt_install(sh, &["--target-release", &backports, "qemu-user"]);
+            }
+            check()?;
         }
         Run::Node => program(sh, "node", &["nodejs"], install)?,
         Run::Miri => return miri(sh, install),
@@ -41,15 +45,28 @@ const WRONG_BEFORE: [(&str, [u32; 2], &str); 2] = [
     ("s390x", [8, 1], "makes 160 of 3 times 5 (mdebr: two f32 to one f64)"),
 ];
 
+/// What an emulator says of itself.
+fn version_of(sh: &Shell, arch: &str) -> String {
+    cmd!(sh, "qemu-{arch} --version").quiet().read().unwrap_or_default()
+}
+
+/// What Debian calls the release that this machine runs.
+fn codename(sh: &Shell) -> String {
+    let release = sh.read_file("/etc/os-release").unwrap_or_default();
+    let name = release.lines().find_map(|line| line.strip_prefix("VERSION_CODENAME="));
+    name.unwrap_or("stable").to_owned()
+}
+
 /// Whether an emulator of that version does what the CPU would.
-fn is_right(arch: &str, version: &str) -> Result<(), String> {
+fn is_right(arch: &str, version: &str, debian: &str) -> Result<(), String> {
     // "qemu-s390x version 7.2.22 (Debian …)"
     let number = version.split(' ').nth(2).unwrap_or_default();
     let mut parts = number.split('.').map(|part| part.parse().unwrap_or(0));
     let found: [u32; 2] = [parts.next().unwrap_or(0), parts.next().unwrap_or(0)];
     match WRONG_BEFORE.iter().find(|(name, first, _)| *name == arch && found < *first) {
         Some((_, [major, minor], why)) => Err(format!(
-            "qemu-{arch} {number} {why}: take {major}.{minor} or later, from Debian's backports"
+            "qemu-{arch} {number} {why}: take {major}.{minor} or later, as with {debian}-backports \
+             among its sources: sudo apt-get install -t {debian}-backports qemu-user"
         )),
         None => Ok(()),
     }
@@ -72,20 +89,25 @@ pub(crate) fn program(
     if there() {
         return Ok(());
     }
-    if install && let Some((env, to_env)) = env_as_root(sh) {
-        // The update may fail for one source of several and the install still succeed: what
-        // counts is the program, so both may fail.
-        let apt = |args: &[&str]| {
-            let noninteractive = "DEBIAN_FRONTEND=noninteractive";
-            let _ = cmd!(sh, "{env} {to_env...} {noninteractive} apt-get -qq {args...}").run();
-        };
-        apt(&["update"]);
-        apt(&[&["install", "-y", "--no-install-recommends"], packages].concat());
+    if install {
+        apt_install(sh, packages);
         if there() {
             return Ok(());
         }
     }
     Err(format!("no {program}: sudo apt-get install {}", packages.join(" ")))
+}
+
+/// Installs packages, if it can. The update may fail for one source of several and the install still
+/// succeed: what counts is what is there afterwards, so both may fail.
+fn apt_install(sh: &Shell, args: &[&str]) {
+    let Some((env, to_env)) = env_as_root(sh) else { return };
+    let apt = |args: &[&str]| {
+        let noninteractive = "DEBIAN_FRONTEND=noninteractive";
+        let _ = cmd!(sh, "{env} {to_env...} {noninteractive} apt-get -qq {args...}").run();
+    };
+    apt(&["update"]);
+    apt(&[&["install", "-y", "--no-install-recommends"], args].concat());
 }
 
 /// Makes sure that the toolchain has a target's standard library.
@@ -144,10 +166,11 @@ mod tests {
     fn emulators_that_err_are_refused() {
         let old = "qemu-s390x version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)\nCopyright";
         let new = "qemu-s390x version 10.0.2 (Debian 1:10.0.2+ds-2+deb13u1)\nCopyright";
-        let error = is_right("s390x", old).expect_err("it is known to be wrong");
+        let error = is_right("s390x", old, "bookworm").expect_err("it is known to be wrong");
         assert!(error.contains("7.2.22") && error.contains("8.1"), "{error}");
-        assert_eq!(is_right("s390x", new), Ok(()));
-        assert_eq!(is_right("x86_64", old), Ok(()));
-        assert_eq!(is_right("aarch64", ""), Ok(()));
+        assert!(error.ends_with("install -t bookworm-backports qemu-user"), "{error}");
+        assert_eq!(is_right("s390x", new, "bookworm"), Ok(()));
+        assert_eq!(is_right("x86_64", old, "bookworm"), Ok(()));
+        assert_eq!(is_right("aarch64", "", "bookworm"), Ok(()));
     }
 }
