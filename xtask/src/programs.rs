@@ -2,7 +2,7 @@
 
 use crate::cross::{cargo, runner};
 use crate::matrix::{Build, CORE, LONG, Run, Target, Tests};
-use crate::report::{Done, Tally};
+use crate::report::{Done, Tally, skips};
 use serde_json::Value;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -120,6 +120,7 @@ impl Programs {
             commands.push(cmd!(sh, "cargo test --quiet --locked --workspace --doc").into());
         }
         let mut sum = Tally::default();
+        let mut skipped = Vec::new();
         let mut wrong = Vec::new();
         for command in &mut commands {
             // Each would change what the tests check.
@@ -130,14 +131,19 @@ impl Programs {
             if let Some(cases) = target.cases(level.is_none()) {
                 command.env("PROPTEST_CASES", cases);
             }
-            let (tally, failure) = test(command);
+            let (tally, failure) = test(command, &mut skipped);
             sum += tally;
             wrong.extend(failure);
+        }
+        if tests == Tests::Brief {
+            skipped.extend(LONG.map(|name| format!("{name}: too long for an emulator")));
         }
         if sum.passed == 0 && wrong.is_empty() {
             wrong.push("no test was run".to_owned());
         }
-        if wrong.is_empty() { Done::passed(sum) } else { Done::failed(sum, wrong.join("; ")) }
+        let passed = wrong.is_empty();
+        let done = if passed { Done::passed(sum) } else { Done::failed(sum, wrong.join("; ")) };
+        Done { skips: skipped, ..done }
     }
 
     /// The test programs that are asked for.
@@ -157,7 +163,8 @@ impl Programs {
         let words = words(sh, target, &test.file);
         let (program, args) = words.split_first().expect("the program itself");
         let mut command = Command::new(program);
-        command.args(args).arg("--quiet").current_dir(&test.folder);
+        // A test that skips something says so, and is not heard unless it fails or this is asked.
+        command.args(args).arg("--show-output").current_dir(&test.folder);
         if let Run::Node = target.run {
             // There a panic is the end, and what it said would be lost.
             command.arg("--nocapture");
@@ -174,7 +181,7 @@ const MIRIFLAGS: &str = "-Zmiri-disable-isolation";
 
 /// Miri on the tests of conformance: it builds what it runs.
 fn miri_test(sh: &Shell, target: &Target) -> Command {
-    let args = ["--quiet", "--locked", "-p", "simd4", "--test", "conformance"];
+    let args = ["--locked", "-p", "simd4", "--test", "conformance", "--", "--show-output"];
     cargo(sh, target, "test").args(args).env("MIRIFLAGS", MIRIFLAGS).into()
 }
 
@@ -184,8 +191,9 @@ fn words(sh: &Shell, target: &Target, program: &Path) -> Vec<OsString> {
     runner.chain([program.into()]).collect()
 }
 
-/// Runs tests: the count, and what went wrong. Their output is shown only then.
-fn test(command: &mut Command) -> (Tally, Option<String>) {
+/// Runs tests: the count, and what went wrong. Their output is shown only then. Adds why any were
+/// skipped.
+fn test(command: &mut Command, skipped: &mut Vec<String>) -> (Tally, Option<String>) {
     let mut shown = format!("{command:?}");
     for variable in ["SIMD4_LEVEL", "PROPTEST_CASES"] {
         let set = command.get_envs().find(|(name, _)| *name == variable);
@@ -199,11 +207,16 @@ fn test(command: &mut Command) -> (Tally, Option<String>) {
         Err(error) => (Tally::default(), Some(format!("{error}: {shown}"))),
         Ok(output) => {
             let stdout = String::from_utf8_lossy(&output.stdout);
+            let stderr = String::from_utf8_lossy(&output.stderr);
             let mut tally = Tally::of(&stdout);
+            skipped.extend(skips(&stdout).chain(skips(&stderr)));
             if output.status.success() {
                 return (tally, None);
             }
-            println!("{stdout}{}", String::from_utf8_lossy(&output.stderr));
+            let passed = |line: &&str| line.starts_with("test ") && line.ends_with(" ... ok");
+            for line in stdout.lines().filter(|line| !passed(line)).chain(stderr.lines()) {
+                println!("{line}");
+            }
             // A program that crashed counts nothing; "0 failed" would be a lie.
             tally.failed = tally.failed.max(1);
             (tally, Some(format!("{}: {shown}", output.status)))

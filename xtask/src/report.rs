@@ -1,5 +1,6 @@
 //! What came of the steps, and the closing table.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::AddAssign;
 use std::time::{Duration, Instant};
@@ -32,6 +33,18 @@ impl Tally {
         }
         sum
     }
+}
+
+/// Why tests were skipped: one reason for each that is marked so, and for each that says so itself.
+pub(crate) fn skips(output: &str) -> impl Iterator<Item = String> {
+    output.lines().filter_map(|line| {
+        let marked = line.split_once(" ... ignored, ");
+        let said = || line.split_once("skipped: ");
+        let (before, why) = marked.or_else(said)?;
+        // Without capture, what a test says comes after its name.
+        let named = before.is_empty() || before.starts_with("test ");
+        named.then(|| why.to_owned())
+    })
 }
 
 impl AddAssign for Tally {
@@ -70,27 +83,29 @@ pub(crate) struct Done {
     pub(crate) tally: Option<Tally>,
     /// Why it ended as it did, if it did not pass.
     pub(crate) reason: String,
+    /// Why tests were skipped, each of them.
+    pub(crate) skips: Vec<String>,
 }
 
 impl Done {
     /// All those tests passed.
     pub(crate) fn passed(tally: Tally) -> Done {
-        Done { outcome: Outcome::Passed, tally: Some(tally), reason: String::new() }
+        Done { outcome: Outcome::Passed, tally: Some(tally), reason: String::new(), skips: vec![] }
     }
 
     /// Not all did.
     pub(crate) fn failed(tally: Tally, reason: String) -> Done {
-        Done { outcome: Outcome::Failed, tally: Some(tally), reason }
+        Done { outcome: Outcome::Failed, tally: Some(tally), reason, skips: vec![] }
     }
 
     /// There is something missing.
     pub(crate) fn skipped(reason: String) -> Done {
-        Done { outcome: Outcome::Skipped, tally: None, reason }
+        Done { outcome: Outcome::Skipped, tally: None, reason, skips: vec![] }
     }
 
     /// It need not be tried here.
     pub(crate) fn left(reason: String) -> Done {
-        Done { outcome: Outcome::Left, tally: None, reason }
+        Done { outcome: Outcome::Left, tally: None, reason, skips: vec![] }
     }
 }
 
@@ -98,7 +113,7 @@ impl Done {
 impl From<Result<(), String>> for Done {
     fn from(result: Result<(), String>) -> Done {
         let outcome = if result.is_ok() { Outcome::Passed } else { Outcome::Failed };
-        Done { outcome, tally: None, reason: result.err().unwrap_or_default() }
+        Done { outcome, tally: None, reason: result.err().unwrap_or_default(), skips: vec![] }
     }
 }
 
@@ -156,7 +171,14 @@ impl fmt::Display for Report {
             "target", "level", "", "passed", "failed", "skipped", "seconds"
         )?;
         let mut sum = Tally::default();
-        for Row { step, level, done: Done { outcome, tally, reason }, time } in &self.rows {
+        let mut skipped = BTreeMap::<&str, (u64, BTreeSet<&str>)>::new();
+        for Row { step, level, done, time } in &self.rows {
+            let Done { outcome, tally, reason, skips } = done;
+            for why in skips {
+                let (count, steps) = skipped.entry(why).or_default();
+                *count += 1;
+                steps.insert(step);
+            }
             let outcome = match outcome {
                 Outcome::Passed => "passed",
                 Outcome::Failed => "FAILED",
@@ -177,6 +199,10 @@ impl fmt::Display for Report {
             writeln!(f, "{}", line.trim_end())?;
             sum += tally.unwrap_or_default();
         }
+        for (why, (count, steps)) in skipped {
+            let steps = Vec::from_iter(steps).join(", ");
+            writeln!(f, "skipped {count} times: {why} ({steps})")?;
+        }
         write!(f, "{sum}")
     }
 }
@@ -194,6 +220,14 @@ mod tests {
             expected `test result: ok. 50 passed; 1 failed`\n";
         assert_eq!(Tally::of(stdout), Tally { passed: 12, failed: 2, skipped: 1 });
         assert_eq!(Tally::of("error: could not compile"), Tally::default());
+    }
+
+    #[test]
+    fn who_skips_a_test_says_why() {
+        let captured = "test a::b ... ok\ntest a::c ... ignored, minutes\n\nsuccesses:\n\n\
+            ---- a::b stdout ----\nskipped: no device: none\n1 line skipped: no\n";
+        assert_eq!(Vec::from_iter(skips(captured)), ["minutes", "no device: none"]);
+        assert_eq!(Vec::from_iter(skips("test a::b ... skipped: no device\n")), ["no device"]);
     }
 
     #[test]
@@ -222,13 +256,16 @@ mod tests {
         let mut report = Report::default();
         assert!(report.step("format", "", || Ok(()).into()));
         let tally = Tally { passed: 40, failed: 2, skipped: 1 };
-        assert!(!report.step("aarch64", "neon", || Done::failed(tally, "exit 101".to_owned())));
+        let failed = Done::failed(tally, "exit 101".to_owned());
+        let skips = vec!["no device".to_owned(); 2];
+        assert!(!report.step("aarch64", "neon", || Done { skips, ..failed }));
         let table = report.to_string();
         let lines: Vec<_> = table.lines().collect();
-        assert_eq!(lines.len(), 4);
+        assert_eq!(lines.len(), 5);
         for word in ["aarch64", "neon", "FAILED", "40", "2", "1", "exit 101"] {
             assert!(lines[2].contains(word), "{word} is not in {:?}", lines[2]);
         }
-        assert_eq!(lines[3], "40 passed, 2 failed, 1 skipped");
+        assert_eq!(lines[3], "skipped 2 times: no device (aarch64)");
+        assert_eq!(lines[4], "40 passed, 2 failed, 1 skipped");
     }
 }
