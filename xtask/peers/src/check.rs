@@ -1,13 +1,15 @@
 //! Whether two ways find the same.
 
-use crate::peer::Hit;
 use rt_kernels::Ray;
+use serde::{Deserialize, Serialize};
+
+use crate::peers::Hit;
 
 /// Of all distances and coordinates of a ray, how far apart two hits are that differ by rounding.
 const ROUNDING: f32 = 1e-5;
 
 /// How many rays one way judges otherwise than another.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Differences {
     /// It finds nothing where the other does.
     pub(crate) missed: usize,

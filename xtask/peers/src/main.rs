@@ -1,64 +1,32 @@
 //! The kernels beside Embree and other BVH crates: the same scenes, rays, thread and instructions,
 //! in one process, in interleaved rounds. `cargo xtask peers --help` says what there is to choose.
 
+mod args;
+mod builds;
+mod cells;
+mod chart;
 mod check;
-mod embree;
+mod clock;
+mod leaks;
 mod mesh;
-mod ours;
-mod peer;
+mod native;
+mod peers;
 mod race;
 mod rays;
 mod report;
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
 use rt_kernels::{Exec, Sequential};
 
-use check::Differences;
-use embree::Embree;
+use args::Args;
+use cells::Cell;
 use mesh::Mesh;
-use ours::Ours;
-use peer::{Built, Isa, Way};
-use race::Times;
-use rays::{Kind, Picture, Work};
-use report::{Cell, Row};
-
-/// Our kernels beside Embree's and others', on the same rays.
-#[derive(Parser)]
-#[command(name = "cargo xtask peers")]
-struct Args {
-    /// Scenes: balls, rings, tree, bunny, dragon, conference, an OBJ or NFF file, or spd:NAME:SIZE.
-    #[arg(long, value_delimiter = ',', default_values_t = mesh::ALL.map(String::from))]
-    scenes: Vec<String>,
-    /// Instructions: sse4, avx2, avx512, native.
-    #[arg(long, value_delimiter = ',', value_parser = isa, default_value = "sse4,avx2,avx512")]
-    isa: Vec<Isa>,
-    /// Rays: primary, shadow, diffuse.
-    #[arg(long, value_delimiter = ',', value_parser = kind, default_value = "primary,shadow,diffuse")]
-    rays: Vec<Kind>,
-    /// Pixels along the side of the picture.
-    #[arg(long, value_delimiter = ',', default_value = "512,1024")]
-    size: Vec<u32>,
-    /// How often each way runs.
-    #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
-    rounds: u32,
-    /// Embree's shared library.
-    #[arg(long, env = "EMBREE")]
-    embree: Option<PathBuf>,
-    /// Only the default of ours and the fastest of each peer.
-    #[arg(long)]
-    brief: bool,
-}
-
-fn isa(name: &str) -> Result<Isa, String> {
-    Isa::ALL.into_iter().find(|isa| isa.name() == name).ok_or(format!("no {name:?}"))
-}
-
-fn kind(name: &str) -> Result<Kind, String> {
-    Kind::ALL.into_iter().find(|kind| kind.name() == name).ok_or(format!("no {name:?}"))
-}
+use peers::{Embree, Isa, Ours};
+use rays::Picture;
+use report::Report;
 
 fn main() -> ExitCode {
     match run(&Args::parse()) {
@@ -72,82 +40,81 @@ fn main() -> ExitCode {
 
 fn run(args: &Args) -> Result<(), String> {
     let embree = Embree::open(args.embree.as_deref())?;
-    let mut cells = Vec::new();
-    print!("{}", report::head());
-    for name in &args.scenes {
-        let mesh = Mesh::open(name)?;
-        let ours = Ours::build(&ours::primitives(&mesh)?, &Sequential)?;
-        let exec = Exec::best().map_err(|error| error.to_string())?;
-        let pictures: Vec<_> = args
-            .size
-            .iter()
-            .map(|&size| Ok((size, Picture::new(&mesh, ours.default(), exec, size)?)))
-            .collect::<Result<_, String>>()?;
-        for &isa in &args.isa {
-            let scenes = [false, true].map(|robust| embree.build(&mesh, isa, 1, robust));
-            let scenes = scenes.into_iter().collect::<Result<Vec<_>, _>>()?;
-            for ((size, picture), &kind) in pictures
-                .iter()
-                .flat_map(|picture| args.rays.iter().map(move |kind| (picture, kind)))
-            {
-                let works = picture.works(kind);
-                let level = ours::level(isa)?;
-                let mut ways: Vec<(Box<dyn Way + '_>, Built, &Work)> = Vec::new();
-                for work in &works {
-                    ways.extend(
-                        ours.ways(work, level).into_iter().map(|(way, built)| (way, built, work)),
-                    );
-                    for scene in &scenes {
-                        let built = scene.built();
-                        ways.extend(scene.ways(work).into_iter().map(|way| (way, built, work)));
-                    }
-                }
-                let rows = measure(ways, args.rounds as usize);
-                let (scene, size) = (mesh.name.clone(), *size);
-                let cell = Cell { scene, triangles: mesh.triangles.len(), size, kind, isa, rows };
-                print!("{}", cell.table(args.brief));
-                cells.push(cell);
-            }
-        }
+    // Levels that this CPU lacks are left out; native is for the other program, if there is one.
+    let (isa, lacking): (Vec<_>, Vec<_>) =
+        args.isa().into_iter().partition(|&isa| peers::level(isa).is_ok());
+    for isa in lacking {
+        eprintln!("{isa} is left out: this CPU lacks it");
     }
-    print!("{}", report::summary(&cells));
+    let other = args.native.as_deref().filter(|_| !args.for_parent);
+    let (elsewhere, here): (Vec<_>, Vec<_>) =
+        isa.into_iter().partition(|&isa| isa == Isa::Native && other.is_some());
+
+    let show = |text: &str| {
+        if !args.for_parent {
+            print!("{text}");
+        }
+    };
+    show(&report::head());
+    let mut report = measure(args, embree, &here, &show)?;
+    if let (Some(path), [_, ..]) = (other, &*elsewhere) {
+        let native = native::run(path)?;
+        native.cells.iter().for_each(|cell| show(&report::table(cell, args.brief)));
+        report.cells.extend(native.cells);
+        report.leaks.extend(native.leaks);
+    }
+    if args.for_parent {
+        print!("{}", serde_json::to_string(&report).map_err(|error| error.to_string())?);
+        return Ok(());
+    }
+    show(&report.closing());
+    if let Some(path) = &args.json {
+        write(path, &format!("{:#}\n", report.json()))?;
+    }
+    if let Some(path) = &args.chart {
+        write(path, &chart::svg(&report))?;
+    }
     Ok(())
 }
 
-/// Checks what all ways find, then lets them race.
-fn measure(ways: Vec<(Box<dyn Way + '_>, Built, &Work)>, rounds: usize) -> Vec<Row> {
-    let mut rows = Vec::new();
-    let (mut racers, mut reference) = (Vec::new(), (None, Vec::new()));
-    for (mut way, built, work) in ways {
-        way.reset();
-        way.run();
-        let hits = way.hits();
-        // The first way of each work is ours.
-        if reference.0 != Some(work.order) {
-            reference = (Some(work.order), hits.clone());
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Measures at these levels, and shows each cell as soon as there is one.
+fn measure(
+    args: &Args,
+    embree: Embree,
+    isa: &[Isa],
+    show: &impl Fn(&str),
+) -> Result<Report, String> {
+    let mut report = Report::default();
+    for name in args.scenes() {
+        let mesh = Mesh::open(&name)?;
+        let ours = Ours::build(&peers::primitives(&mesh)?, &Sequential)?;
+        let exec = Exec::best().map_err(|error| error.to_string())?;
+        let picture = |size| Ok((size, Picture::new(&mesh, ours.default(), exec, size)?));
+        let pictures = args.size().into_iter().map(picture).collect::<Result<Vec<_>, String>>()?;
+        for &isa in isa {
+            let peers = peers::all(&ours, embree, &mesh, isa)?;
+            for (size, picture) in &pictures {
+                for kind in args.rays() {
+                    let (works, rounds) = (picture.works(kind), args.rounds());
+                    let rows = cells::measure(&peers, &works, rounds, args.quick)?;
+                    let (scene, triangles) = (mesh.name.clone(), mesh.triangles.len());
+                    let cell = Cell { scene, triangles, size: *size, kind, isa, rows };
+                    show(&report::table(&cell, args.brief));
+                    report.cells.push(cell);
+                }
+            }
         }
-        let differences = Differences::between(&work.rays, &hits, &reference.1);
-        let mode = way.mode().clone();
-        rows.push(Row {
-            mode,
-            built,
-            rays: work.rays.len(),
-            differences,
-            seconds: 0.0,
-            to_default: 0.0,
-        });
-        racers.push(way);
-    }
-    let times = Times::race(&mut racers, rounds);
-    for (i, row) in rows.iter_mut().enumerate() {
-        row.seconds = times.median(i);
-    }
-    // Rays may start from either end: the default takes the better.
-    let default = report::fastest(&rows, |row| row.mode.default);
-    if let Some(default) = default {
-        for (i, row) in rows.iter_mut().enumerate() {
-            row.to_default = times.ratio(i, default);
+        if args.everything() && !args.for_parent {
+            report.builds.extend(builds::measure(&mesh, embree, args.rounds())?);
         }
     }
-    rows
+    if let (true, Some(&isa)) = (args.everything(), isa.last()) {
+        let rays = if args.quick { 100_000 } else { 1_000_000 };
+        report.leaks = leaks::measure(embree, isa, rays)?;
+    }
+    Ok(report)
 }

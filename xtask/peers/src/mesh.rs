@@ -9,6 +9,9 @@ use rt_scene::{SPD_RESOLUTION, View, tessellate};
 /// What is measured without `--scenes`.
 pub(crate) const ALL: [&str; 6] = ["balls", "rings", "tree", "bunny", "dragon", "conference"];
 
+/// What is measured if time is short.
+pub(crate) const QUICK: [&str; 4] = ["balls", "tree", "bunny", "conference"];
+
 /// Those of them that are computed.
 const COMPUTED: [&str; 3] = ["balls", "rings", "tree"];
 

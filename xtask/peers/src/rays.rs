@@ -4,11 +4,13 @@ use glam::Vec3;
 use rt_kernels::camera::Pinhole;
 use rt_kernels::reference::random::Random;
 use rt_kernels::{Accelerator, Exec, Hits, Ray, Rays, Stats};
+use serde::{Deserialize, Serialize};
 
 use crate::mesh::Mesh;
 
 /// What rays are for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub(crate) enum Kind {
     /// From the eye to whatever is closest.
     Primary,
@@ -21,7 +23,7 @@ pub(crate) enum Kind {
 impl Kind {
     pub(crate) const ALL: [Kind; 3] = [Kind::Primary, Kind::Shadow, Kind::Diffuse];
 
-    /// As in the JSON file.
+    /// As on the command line and in JSON.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Kind::Primary => "primary",

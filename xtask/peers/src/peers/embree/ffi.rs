@@ -6,10 +6,11 @@ use std::mem::size_of;
 use std::path::Path;
 use std::ptr;
 use std::sync::atomic::{AtomicIsize, Ordering};
-use std::time::{Duration, Instant};
 
 use libloading::Library as Shared;
 use rt_kernels::Ray as Query;
+
+use crate::clock::{Took, took};
 
 /// An object of Embree's.
 type Object = *mut c_void;
@@ -338,7 +339,7 @@ pub(super) struct Scene {
     /// Bytes that Embree holds, less what it has freed.
     memory: Box<AtomicIsize>,
     /// How long the commit took.
-    pub(super) build: Duration,
+    pub(super) build: Took,
     /// What the scene added to its memory, with the buffers that it must keep.
     pub(super) bytes: isize,
     /// Whether packets of 1, 2, 4, 8 and 16 are native to the device.
@@ -388,7 +389,7 @@ impl Scene {
             let before = memory.load(Ordering::Relaxed);
             let scene = (l.new_scene)(device);
             let mut built =
-                Scene { library, device, scene, memory, build: Duration::ZERO, bytes: 0, native };
+                Scene { library, device, scene, memory, build: Took::default(), bytes: 0, native };
             (l.set_flags)(scene, if config.robust { SCENE_FLAG_ROBUST } else { 0 });
             (l.set_quality)(scene, config.quality);
             let geometry = (l.new_geometry)(device, GEOMETRY_TYPE_TRIANGLE);
@@ -405,9 +406,7 @@ impl Scene {
             (l.commit_geometry)(geometry);
             (l.attach)(scene, geometry);
             (l.release_geometry)(geometry);
-            let start = Instant::now();
-            (l.commit_scene)(scene);
-            built.build = start.elapsed();
+            ((), built.build) = took(|| (l.commit_scene)(scene));
             built.bytes = built.memory.load(Ordering::Relaxed) - before;
             match (l.get_error)(device) {
                 0 => Ok(built),

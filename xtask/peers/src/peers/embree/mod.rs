@@ -9,8 +9,8 @@ use std::rc::Rc;
 
 use rt_kernels::Ray;
 
+use super::{Built, Hit, Isa, Mode, Peer, Way};
 use crate::mesh::Mesh;
-use crate::peer::{Built, Hit, Isa, Mode, Way};
 use crate::rays::Work;
 use ffi::{Align16, Align32, Align64, Config, RayHits, Rays, Record};
 
@@ -43,7 +43,7 @@ impl Embree {
         if self.0.major == 3 { "embree3" } else { "embree4" }
     }
 
-    /// Builds a hierarchy at that level.
+    /// Builds a hierarchy at that level, by the default builder (medium quality).
     pub(crate) fn build(
         self,
         mesh: &Mesh,
@@ -66,24 +66,16 @@ impl Embree {
 /// The libraries in packages of Python's: `embreex.libs/libembree4-….so.4`.
 fn in_wheels() -> Vec<PathBuf> {
     let program =
-        "import site; print('\\n'.join(site.getsitepackages() + [site.getusersitepackages()]))";
-    let output = ["python3", "python"]
-        .iter()
-        .find_map(|python| Command::new(python).args(["-c", program]).output().ok());
-    let folders = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
-    let files = folders
-        .unwrap_or_default()
+        "import site; print(*site.getsitepackages(), site.getusersitepackages(), sep='\\n')";
+    let ask = |python: &&str| Command::new(python).args(["-c", program]).output().ok();
+    let Some(output) = ["python3", "python"].iter().find_map(ask) else { return Vec::new() };
+    let is_embree = |path: &PathBuf| {
+        path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("libembree"))
+    };
+    String::from_utf8_lossy(&output.stdout)
         .lines()
-        .filter_map(|folder| std::fs::read_dir(Path::new(folder).join("embreex.libs")).ok())
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path())
-        .collect::<Vec<_>>();
-    files
-        .into_iter()
-        .filter(|path| {
-            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("libembree"))
-        })
+        .filter_map(|folder| Path::new(folder).join("embreex.libs").read_dir().ok())
+        .flat_map(|files| files.flatten().map(|file| file.path()).filter(is_embree))
         .collect()
 }
 
@@ -94,15 +86,14 @@ pub(crate) struct Scene {
     scene: ffi::Scene,
 }
 
-impl Scene {
-    /// What it took to build.
-    pub(crate) fn built(&self) -> Built {
-        Built { time: self.scene.build, bytes: self.scene.bytes.max(0) as usize }
+impl Peer for Scene {
+    fn built(&self) -> Built {
+        Built { took: self.scene.build, bytes: self.scene.bytes.max(0) as usize }
     }
 
-    /// All its ways to trace those rays: one by one, and in packets that are native to the level, each
-    /// with rays announced as coherent and not.
-    pub(crate) fn ways<'a>(&'a self, work: &'a Work) -> Vec<Box<dyn Way + 'a>> {
+    /// One by one, and in packets that are native to the level, each with rays announced as coherent
+    /// and not.
+    fn ways<'a>(&'a self, work: &'a Work) -> Vec<Box<dyn Way + 'a>> {
         let mut ways = Vec::new();
         if work.kind.closest() {
             self.add::<RayHits<Align16, 1>>(work, &mut ways);
@@ -117,7 +108,9 @@ impl Scene {
         }
         ways
     }
+}
 
+impl Scene {
     fn add<'a, R: Record + 'a>(&'a self, work: &'a Work, ways: &mut Vec<Box<dyn Way + 'a>>) {
         if !self.scene.native[R::LANES.ilog2() as usize] {
             return;
@@ -127,14 +120,9 @@ impl Scene {
         // One ray has nothing to be coherent with.
         let flags = if R::LANES == 1 { &[false][..] } else { &[false, true] };
         for &coherent in flags {
-            let mut mode = format!("{}", R::LANES);
-            if coherent {
-                mode += " coherent";
-            }
-            if self.robust {
-                mode += " robust";
-            }
-            let mode = Mode { peer: self.peer, name: mode, order: work.order, default: false };
+            let coherence = if coherent { " coherent" } else { "" };
+            let robust = if self.robust { " robust" } else { "" };
+            let mode = Mode::of(self.peer, format!("{}{coherence}{robust}", R::LANES));
             let (scene, records) = (&self.scene, records.clone());
             ways.push(Box::new(Run { mode, scene, rays: &work.rays, records, coherent }));
         }

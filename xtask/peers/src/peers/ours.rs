@@ -1,15 +1,15 @@
 //! The kernels of this repository.
 
 use std::rc::Rc;
-use std::time::Instant;
 
 use rt_kernels::{
     Accelerator, Bvh, Exec, Hits, Join, Layout, PacketSize, Plan, Primitives, Rays, Stats,
 };
 use simd4::Level;
 
+use super::{Built, Hit, Isa, Mode, Peer, Way};
+use crate::clock::took;
 use crate::mesh::Mesh;
-use crate::peer::{Built, Hit, Isa, Mode, Way};
 use crate::rays::Work;
 
 /// Rays in a batch: a tile of 32 by 32 pixels, as the renderer has them.
@@ -41,14 +41,16 @@ pub(crate) struct Ours(Vec<(Bvh, Built)>);
 impl Ours {
     /// Builds them.
     pub(crate) fn build(primitives: &Primitives, join: &impl Join) -> Result<Ours, String> {
+        let mut layouts = Layout::ALL;
+        layouts.sort_by_key(|&layout| layout != Plan::default().layout);
         let build = |layout| {
             let plan = Plan { layout, ..Plan::default() };
-            let start = Instant::now();
-            let bvh = Bvh::build_with(primitives, plan, join).map_err(|error| error.to_string())?;
-            let built = Built { time: start.elapsed(), bytes: bvh.bytes() };
+            let (bvh, took) = took(|| Bvh::build_with(primitives, plan, join));
+            let bvh = bvh.map_err(|error| error.to_string())?;
+            let built = Built { took, bytes: bvh.bytes() };
             Ok((bvh, built))
         };
-        Layout::ALL.into_iter().map(build).collect::<Result<_, _>>().map(Ours)
+        layouts.into_iter().map(build).collect::<Result<_, _>>().map(Ours)
     }
 
     /// The hierarchy of the default plan.
@@ -56,33 +58,53 @@ impl Ours {
         &self.0[0].0
     }
 
-    /// All ways to trace those rays, the default first.
-    pub(crate) fn ways<'a>(&'a self, work: &Work, level: Level) -> Vec<(Box<dyn Way + 'a>, Built)> {
-        let batches: Vec<Rays> =
-            work.rays.chunks(BATCH).map(|rays| rays.iter().copied().collect()).collect();
-        let batches = Rc::new(batches);
-        let mut ways: Vec<(Box<dyn Way + 'a>, Built)> = Vec::new();
-        for (i, (bvh, built)) in self.0.iter().enumerate() {
-            for packet in PACKETS {
-                let exec = Exec { level, packet };
-                // What comes to another way has its own row.
-                if bvh.exec(exec).packet != packet {
-                    continue;
-                }
-                let default = i == 0 && packet == PacketSize::default();
-                let name = format!("{} × {}", bvh.plan().layout.name(), exec.lanes());
-                let name = if default { format!("default ({name})") } else { name };
-                let mode = Mode { peer: "rt", name, order: work.order, default };
-                let results = if work.kind.closest() {
-                    Results::Closest(vec![Hits::new(); batches.len()])
-                } else {
-                    Results::Any(vec![Vec::new(); batches.len()])
-                };
-                ways.push((
-                    Box::new(Run { mode, bvh, exec, batches: batches.clone(), results }),
-                    *built,
-                ));
+    /// All of them, at one level.
+    pub(crate) fn at<'a>(&'a self, level: Level) -> Vec<Box<dyn Peer + 'a>> {
+        let one = |(i, (bvh, built)): (usize, &'a (Bvh, Built))| -> Box<dyn Peer + 'a> {
+            Box::new(At { bvh, built: *built, level, default: i == 0 })
+        };
+        self.0.iter().enumerate().map(one).collect()
+    }
+}
+
+/// A hierarchy, to be traced at one level.
+struct At<'a> {
+    bvh: &'a Bvh,
+    built: Built,
+    level: Level,
+    default: bool,
+}
+
+impl Peer for At<'_> {
+    fn built(&self) -> Built {
+        self.built
+    }
+
+    fn ways<'a>(&'a self, work: &'a Work) -> Vec<Box<dyn Way + 'a>> {
+        let batches = work.rays.chunks(BATCH).map(|rays| rays.iter().copied().collect());
+        let batches: Rc<Vec<Rays>> = Rc::new(batches.collect());
+        let usual = Exec::at(self.level);
+        let mut seen = Vec::new();
+        let mut ways: Vec<Box<dyn Way + 'a>> = Vec::new();
+        for packet in [usual.packet].into_iter().chain(PACKETS) {
+            let exec = Exec { packet, ..usual };
+            // There is not code for every packet.
+            let comes_to = self.bvh.exec(exec);
+            if seen.contains(&comes_to.packet) {
+                continue;
             }
+            let default = self.default && seen.is_empty();
+            seen.push(comes_to.packet);
+            let name = format!("{} × {}", self.bvh.plan().layout.name(), comes_to.lanes());
+            let name = if default { format!("default ({name})") } else { name };
+            let results = if work.kind.closest() {
+                Results::Closest(vec![Hits::new(); batches.len()])
+            } else {
+                Results::Any(vec![Vec::new(); batches.len()])
+            };
+            let mode = Mode { default, ..Mode::of("rt", name) };
+            let (bvh, batches) = (self.bvh, batches.clone());
+            ways.push(Box::new(Run { mode, bvh, exec, batches, results }));
         }
         ways
     }
@@ -132,8 +154,7 @@ impl Way for Run<'_> {
                 .map(|hit| hit.map(|hit| Hit { t: hit.t, prim: hit.prim }))
                 .collect(),
             Results::Any(found) => {
-                let one = Hit { t: 0.0, prim: 0 };
-                found.iter().flatten().map(|&found| found.then_some(one)).collect()
+                found.iter().flatten().map(|&found| found.then_some(Hit::SOME)).collect()
             }
         }
     }

@@ -1,0 +1,146 @@
+//! What is compared: something that traces rays, in each of its ways.
+
+#[cfg(feature = "crates")]
+mod bvh;
+mod embree;
+#[cfg(feature = "crates")]
+mod obvhs;
+mod ours;
+#[cfg(feature = "crates")]
+mod parry;
+#[cfg(feature = "crates")]
+mod single;
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+pub(crate) use embree::Embree;
+pub(crate) use ours::{Ours, level, primitives};
+
+use crate::clock::Took;
+use crate::mesh::Mesh;
+use crate::rays::Work;
+
+/// The instructions that all are limited to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Isa {
+    /// SSE4.1 for us, 4.2 for Embree, which has nothing between it and SSE2.
+    Sse4,
+    Avx2,
+    Avx512,
+    /// What the CPU has, and the compiler was told to use.
+    Native,
+}
+
+impl Isa {
+    pub(crate) const ALL: [Isa; 4] = [Isa::Sse4, Isa::Avx2, Isa::Avx512, Isa::Native];
+
+    /// As on the command line and in JSON.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Isa::Sse4 => "sse4",
+            Isa::Avx2 => "avx2",
+            Isa::Avx512 => "avx512",
+            Isa::Native => "native",
+        }
+    }
+}
+
+impl fmt::Display for Isa {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Who traces, and how.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Mode {
+    /// `rt`, `embree4`, …
+    pub(crate) peer: String,
+    /// What the way is called.
+    pub(crate) name: String,
+    /// Whether it is what one gets from us without asking.
+    pub(crate) default: bool,
+}
+
+impl Mode {
+    /// Not our default.
+    fn of(peer: &str, name: impl Into<String>) -> Mode {
+        Mode { peer: peer.to_owned(), name: name.into(), default: false }
+    }
+
+    /// Whether it is ours.
+    pub(crate) fn is_ours(&self) -> bool {
+        self.peer == "rt"
+    }
+
+    /// Whether it is Embree's.
+    pub(crate) fn is_embree(&self) -> bool {
+        self.peer.starts_with("embree")
+    }
+}
+
+/// What it took to have a hierarchy.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Built {
+    pub(crate) took: Took,
+    /// With the hierarchy's copy of the triangles, or the buffers that it needs to be kept.
+    pub(crate) bytes: usize,
+}
+
+/// The closest hit of a ray, or that there is one: then both are 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hit {
+    pub(crate) t: f32,
+    pub(crate) prim: u32,
+}
+
+impl Hit {
+    /// That there is one.
+    const SOME: Hit = Hit { t: 0.0, prim: 0 };
+}
+
+/// A hierarchy over a mesh.
+pub(crate) trait Peer {
+    fn built(&self) -> Built;
+
+    /// All ways to trace those rays over it; the default is the first.
+    fn ways<'a>(&'a self, work: &'a Work) -> Vec<Box<dyn Way + 'a>>;
+}
+
+/// A way to trace certain rays, which lie ready in the layout that it likes best.
+pub(crate) trait Way {
+    fn mode(&self) -> &Mode;
+
+    /// Restores what a run overwrites. It is not timed.
+    fn reset(&mut self) {}
+
+    /// Traces all rays.
+    fn run(&mut self);
+
+    /// What the last run found, in the order of the rays.
+    fn hits(&self) -> Vec<Option<Hit>>;
+}
+
+/// Everyone at that level, our default first; other crates where the level is what they are compiled
+/// for.
+pub(crate) fn all<'a>(
+    ours: &'a Ours,
+    embree: Embree,
+    mesh: &'a Mesh,
+    isa: Isa,
+) -> Result<Vec<Box<dyn Peer + 'a>>, String> {
+    let mut peers = ours.at(level(isa)?);
+    for robust in [false, true] {
+        peers.push(Box::new(embree.build(mesh, isa, 1, robust)?));
+    }
+    #[cfg(feature = "crates")]
+    if isa == Isa::Native {
+        peers.push(obvhs::build(mesh));
+        peers.push(bvh::build(mesh));
+        peers.push(parry::build(mesh)?);
+    }
+    Ok(peers)
+}
