@@ -27,7 +27,7 @@ pub trait Accelerator: Send + Sync {
     /// # use rt_kernels::{Accelerator, Bvh, Primitives, Ray, Sequential, geom::Sphere};
     /// # let ball = |z| Sphere { center: Vec3::new(0.0, 0.0, z), radius: 1.0 };
     /// # let spheres = vec![ball(0.0), ball(-5.0)];
-    /// # let bvh = Bvh::build(&Primitives { triangles: vec![], spheres }, &Sequential)?;
+    /// # let bvh = Bvh::build(&Primitives { spheres, ..Primitives::default() }, &Sequential)?;
     /// let ray = Ray::new(Vec3::new(0.0, 0.0, 5.0), Vec3::NEG_Z);
     /// let mut hit = [false; 2];
     /// bvh.visit(&ray, &mut |found| {
@@ -45,7 +45,7 @@ pub trait Accelerator: Send + Sync {
     /// # use glam::Vec3;
     /// # use rt_kernels::{Accelerator, Bvh, Primitives, Ray, Sequential, geom::Triangle};
     /// let floor = Triangle { corners: [Vec3::ZERO, Vec3::X * 4.0, Vec3::Z * 4.0] };
-    /// let scene = Primitives { triangles: vec![floor], spheres: vec![] };
+    /// let scene = Primitives { triangles: vec![floor], ..Primitives::default() };
     /// let bvh = Bvh::build(&scene, &Sequential)?;
     ///
     /// let ray = Ray::new(Vec3::new(1.0, 3.0, 2.0), Vec3::NEG_Y);
@@ -66,7 +66,7 @@ pub trait Accelerator: Send + Sync {
     /// # use rt_kernels::{Accelerator, Bvh, Primitives, Ray, Sequential, geom::Sphere};
     /// # let ball = |z| Sphere { center: Vec3::new(0.0, 0.0, z), radius: 1.0 };
     /// # let spheres = vec![ball(0.0), ball(-5.0)];
-    /// # let bvh = Bvh::build(&Primitives { triangles: vec![], spheres }, &Sequential)?;
+    /// # let bvh = Bvh::build(&Primitives { spheres, ..Primitives::default() }, &Sequential)?;
     /// let ray = Ray::new(Vec3::new(0.0, 0.0, 5.0), Vec3::NEG_Z);
     /// let behind = bvh.intersect_where(&ray, &mut |hit| hit.prim != 0).expect("two balls");
     /// assert_eq!((behind.prim, behind.t), (1, 9.0));
@@ -90,7 +90,7 @@ pub trait Accelerator: Send + Sync {
     /// # use glam::Vec3;
     /// # use rt_kernels::{Accelerator, Bvh, Primitives, Ray, Sequential, geom::Sphere};
     /// # let spheres = vec![Sphere { center: Vec3::ZERO, radius: 1.0 }];
-    /// # let bvh = Bvh::build(&Primitives { triangles: vec![], spheres }, &Sequential)?;
+    /// # let bvh = Bvh::build(&Primitives { spheres, ..Primitives::default() }, &Sequential)?;
     /// let toward = Ray::new(Vec3::new(0.0, 0.0, 5.0), Vec3::NEG_Z);
     /// assert!(bvh.occluded(&toward));
     /// assert!(!bvh.occluded(&Ray { tmax: 3.5, ..toward }));
@@ -113,7 +113,7 @@ pub trait Accelerator: Send + Sync {
     /// # use rt_kernels::{Accelerator, Bvh, Primitives, Ray, Sequential, geom::Sphere};
     /// # let ball = |z| Sphere { center: Vec3::new(0.0, 0.0, z), radius: 1.0 };
     /// # let spheres = vec![ball(-5.0), ball(0.0)];
-    /// # let bvh = Bvh::build(&Primitives { triangles: vec![], spheres }, &Sequential)?;
+    /// # let bvh = Bvh::build(&Primitives { spheres, ..Primitives::default() }, &Sequential)?;
     /// let ray = Ray::new(Vec3::new(0.0, 0.0, 5.0), Vec3::NEG_Z);
     /// let all: Vec<_> = bvh.all_hits(&ray).iter().map(|hit| (hit.t, hit.prim)).collect();
     /// assert_eq!(all, [(4.0, 1), (9.0, 0)]);

@@ -46,8 +46,9 @@ impl Traverse for Brute {
         stats: &mut Stats,
     ) {
         let store = &self.store;
-        store.intersect::<K, V, F, Q>(s, store.triangle_slots(), packet, frame, query, stats);
-        store.intersect::<K, V, F, Q>(s, store.sphere_slots(), packet, frame, query, stats);
+        for slots in store.slots_by_kind() {
+            store.intersect::<K, V, F, Q>(s, slots, packet, frame, query, stats);
+        }
     }
 
     fn method(&self) -> Method {

@@ -10,7 +10,7 @@
 //! use rt_kernels::geom::Sphere;
 //!
 //! let ball = Sphere { center: Vec3::ZERO, radius: 1.0 };
-//! let scene = Primitives { triangles: vec![], spheres: vec![ball] };
+//! let scene = Primitives { spheres: vec![ball], ..Primitives::default() };
 //! let bvh = Bvh::build(&scene, &Sequential)?;
 //!
 //! let mut rays = Rays::new();

@@ -5,19 +5,39 @@ use std::ops::Range;
 use glam::Vec3;
 use simd4::SimdF32;
 
-use crate::geom::{Aabb, Sphere, Triangle};
+use crate::geom::{Aabb, Cone, Sphere, Triangle};
 use crate::packet::{Frame, Packet, Query};
+use crate::quadric::cone::{self, ConeRecord};
 use crate::quadric::sphere;
 use crate::tri::{self, Method, Record, TriangleKernel};
 use crate::{BuildError, Stats};
 
-/// The primitives of a scene. They are numbered in this order: triangles first, then spheres.
+/// The primitives of a scene. They are numbered in this order: triangles first, then spheres, then
+/// cones.
 #[derive(Clone, Debug, Default)]
 pub struct Primitives {
     /// Triangles.
     pub triangles: Vec<Triangle>,
     /// Spheres.
     pub spheres: Vec<Sphere>,
+    /// Cones and cylinders.
+    pub cones: Vec<Cone>,
+}
+
+/// How many kinds of primitives there are.
+pub(crate) const KINDS: usize = 3;
+
+/// The kind of a primitive, from 0, if there are so many of each.
+pub(crate) fn kind(counts: &[usize; KINDS], prim: u32) -> usize {
+    let [triangles, spheres, _] = *counts;
+    usize::from(prim as usize >= triangles) + usize::from(prim as usize >= triangles + spheres)
+}
+
+/// One of them.
+pub(crate) enum Primitive<'a> {
+    Triangle(&'a Triangle),
+    Sphere(&'a Sphere),
+    Cone(&'a Cone),
 }
 
 /// The greatest coordinate of a primitive. See the crate's documentation, "The range".
@@ -61,7 +81,7 @@ impl Primitives {
 
     /// The number of primitives.
     pub fn len(&self) -> usize {
-        self.triangles.len() + self.spheres.len()
+        self.counts().iter().sum()
     }
 
     /// Whether there are none.
@@ -69,15 +89,32 @@ impl Primitives {
         self.len() == 0
     }
 
-    /// The number of triangles and of spheres.
-    pub(crate) fn counts(&self) -> [usize; 2] {
-        [self.triangles.len(), self.spheres.len()]
+    /// How many there are of each kind.
+    pub(crate) fn counts(&self) -> [usize; KINDS] {
+        [self.triangles.len(), self.spheres.len(), self.cones.len()]
+    }
+
+    /// The primitive of that number.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub(crate) fn get(&self, prim: u32) -> Primitive<'_> {
+        let prim = prim as usize;
+        let (spheres, cones) = (self.triangles.len(), self.triangles.len() + self.spheres.len());
+        if prim < spheres {
+            Primitive::Triangle(&self.triangles[prim])
+        } else if prim < cones {
+            Primitive::Sphere(&self.spheres[prim - spheres])
+        } else {
+            Primitive::Cone(&self.cones[prim - cones])
+        }
     }
 
     /// The own boxes of all primitives, in their order.
     pub(crate) fn own_boxes(&self) -> impl Iterator<Item = Aabb> {
         let triangles = self.triangles.iter().map(Triangle::own_box);
-        triangles.chain(self.spheres.iter().map(Sphere::own_box))
+        let round = self.spheres.iter().map(Sphere::own_box);
+        triangles.chain(round).chain(self.cones.iter().map(Cone::own_box))
     }
 
     /// Refuses what the kernels make no promise for.
@@ -92,6 +129,13 @@ impl Primitives {
             check_points(prim, &[sphere.center, Vec3::splat(sphere.radius)])?;
             if sphere.radius <= 0.0 {
                 return Err(BuildError::NoRadius { prim });
+            }
+        }
+        for (prim, cone) in (self.triangles.len() + self.spheres.len()..).zip(&self.cones) {
+            let [base, apex] = [cone.base_radius, cone.apex_radius];
+            check_points(prim, &[cone.base, cone.apex, Vec3::new(base, apex, 0.0)])?;
+            if cone.base == cone.apex || base.min(apex) < 0.0 || base.max(apex) == 0.0 {
+                return Err(BuildError::NoMantle { prim });
             }
         }
         Ok(())
@@ -120,17 +164,18 @@ pub struct SphereRecord {
 }
 
 /// Primitives in the order of the leaves. A **slot** numbers them: triangles first, then spheres,
-/// so that a range of slots of one kind needs no tag.
+/// then cones, so that a range of slots of one kind needs no tag.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Store {
     /// The test that the triangles' records are made for.
     method: Method,
-    /// How many triangles and spheres there are: some may have several slots.
-    counts: [usize; 2],
+    /// How many primitives there are of each kind: some may have several slots.
+    counts: [usize; KINDS],
     triangles: Vec<Record>,
     /// The triangles' own boxes, unless the method's kernel has them from the records.
     own_boxes: Vec<Aabb>,
     spheres: Vec<SphereRecord>,
+    cones: Vec<ConeRecord>,
 }
 
 impl Store {
@@ -152,19 +197,18 @@ impl Store {
             triangles: Vec::with_capacity(primitives.triangles.len()),
             own_boxes: Vec::with_capacity(boxes),
             spheres: Vec::with_capacity(primitives.spheres.len()),
+            cones: Vec::with_capacity(primitives.cones.len()),
         };
         for prim in order {
-            match primitives.triangles.get(prim as usize) {
-                Some(triangle) => {
+            match primitives.get(prim) {
+                Primitive::Triangle(triangle) => {
                     store.triangles.push(method.record(triangle, prim));
                     if boxes > 0 {
                         store.own_boxes.push(triangle.own_box());
                     }
                 }
-                None => {
-                    let sphere = primitives.spheres[prim as usize - primitives.triangles.len()];
-                    store.spheres.push(SphereRecord { sphere, prim });
-                }
+                Primitive::Sphere(&sphere) => store.spheres.push(SphereRecord { sphere, prim }),
+                Primitive::Cone(cone) => store.cones.push(ConeRecord::new(cone, prim)),
             }
         }
         store
@@ -176,32 +220,35 @@ impl Store {
         *self = Store::reordered(primitives, self.method, order.into_iter());
     }
 
-    /// The number of triangles and of spheres.
-    pub(crate) fn counts(&self) -> [usize; 2] {
+    /// How many primitives there are of each kind.
+    pub(crate) fn counts(&self) -> [usize; KINDS] {
         self.counts
     }
 
     /// The primitive in a slot.
     pub(crate) fn prim(&self, slot: usize) -> u32 {
-        match self.triangles.get(slot) {
-            Some(triangle) => triangle.number(),
-            None => self.spheres[slot - self.triangles.len()].prim,
+        let [_, spheres, cones] = self.slots_by_kind();
+        if slot < spheres.start {
+            self.triangles[slot].number()
+        } else if slot < cones.start {
+            self.spheres[slot - spheres.start].prim
+        } else {
+            self.cones[slot - cones.start].prim
         }
     }
 
     /// The number of slots: a primitive may have several.
     pub(crate) fn slots(&self) -> usize {
-        self.triangles.len() + self.spheres.len()
+        let [.., cones] = self.slots_by_kind();
+        cones.end
     }
 
-    /// The slots of all triangles.
-    pub(crate) fn triangle_slots(&self) -> Range<usize> {
-        0..self.triangles.len()
-    }
-
-    /// The slots of all spheres.
-    pub(crate) fn sphere_slots(&self) -> Range<usize> {
-        self.triangles.len()..self.slots()
+    /// The slots of all primitives of each kind.
+    #[inline(always)]
+    pub(crate) fn slots_by_kind(&self) -> [Range<usize>; KINDS] {
+        let spheres = self.triangles.len();
+        let cones = spheres + self.spheres.len();
+        [0..spheres, spheres..cones, cones..cones + self.cones.len()]
     }
 
     /// The test that the triangles' records are made for.
@@ -234,17 +281,27 @@ impl Store {
                     tri::intersect_in::<K, V, F, Q>(s, triangle, own_box, packet, frame, query);
                 }
             }
-        } else {
+            return;
+        }
+        let [_, spheres, cones] = self.slots_by_kind();
+        if slots.end <= spheres.end {
             stats.sphere_tests += tests;
-            let spheres = slots.start - self.triangles.len()..slots.end - self.triangles.len();
-            for sphere in &self.spheres[spheres] {
+            for sphere in &self.spheres[slots.start - spheres.start..slots.end - spheres.start] {
                 sphere::intersect(s, sphere, packet, frame, query);
+            }
+        } else {
+            stats.cone_tests += tests;
+            for cone in &self.cones[slots.start - cones.start..slots.end - cones.start] {
+                cone::intersect(s, cone, packet, frame, query);
             }
         }
     }
 
     /// The memory that the records take.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(&*self.triangles) + size_of_val(&*self.own_boxes) + size_of_val(&*self.spheres)
+        size_of_val(&*self.triangles)
+            + size_of_val(&*self.own_boxes)
+            + size_of_val(&*self.spheres)
+            + size_of_val(&*self.cones)
     }
 }

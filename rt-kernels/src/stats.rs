@@ -13,8 +13,17 @@ pub struct Stats {
     pub triangle_tests: u64,
     /// Tests of one ray against one sphere.
     pub sphere_tests: u64,
+    /// Tests of one ray against one cone or cylinder.
+    pub cone_tests: u64,
     /// Tests of one ray against one primitive that a [mailbox](crate::mailbox) spared.
     pub mailed: u64,
+}
+
+impl Stats {
+    /// Tests of one ray against one primitive of any kind.
+    pub fn primitive_tests(&self) -> u64 {
+        self.triangle_tests + self.sphere_tests + self.cone_tests
+    }
 }
 
 impl AddAssign for Stats {
@@ -23,6 +32,7 @@ impl AddAssign for Stats {
         self.box_tests += other.box_tests;
         self.triangle_tests += other.triangle_tests;
         self.sphere_tests += other.sphere_tests;
+        self.cone_tests += other.cone_tests;
         self.mailed += other.mailed;
     }
 }

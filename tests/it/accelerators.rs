@@ -201,7 +201,7 @@ fn a_screen_hides_the_boxes_behind_it() {
         let rays: Rays = (0..64)
             .map(|_| aim::at(thin(random.in_cube()), aim::between(a, b, random.unit())))
             .collect();
-        let alone = Primitives { triangles: vec![needle], spheres: vec![] };
+        let alone = Primitives { triangles: vec![needle], ..Primitives::default() };
         let alone = closest(&Brute::build(&alone).expect("in range"), plainest(), &rays);
         for (i, hit) in alone.into_iter().enumerate() {
             let ray = rays.get(i);
@@ -214,7 +214,7 @@ fn a_screen_hides_the_boxes_behind_it() {
             let screen = screen(&ray, nearer, needle.own_box().extent().max_element());
             let scene = Primitives {
                 triangles: vec![screen, screen, screen, screen, needle],
-                spheres: vec![],
+                ..Primitives::default()
             };
             one_answer(&scene, &[ray].into_iter().collect());
         }

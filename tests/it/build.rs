@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 
 use glam::Vec3;
-use rt_kernels::geom::{Sphere, Triangle};
+use rt_kernels::geom::{Cone, Sphere, Triangle};
 use rt_kernels::tri::Method;
 use rt_kernels::{Brute, BuildError, Builder, Bvh, Exec, Layout, Plan, Primitives};
 use rt_kernels::{Rays, Sequential};
@@ -17,6 +17,10 @@ fn triangle() -> Triangle {
 
 fn ball() -> Sphere {
     Sphere { center: Vec3::ZERO, radius: 1.0 }
+}
+
+fn cone() -> Cone {
+    Cone { base: Vec3::ZERO, base_radius: 1.0, apex: Vec3::Z, apex_radius: 0.0 }
 }
 
 fn build(scene: &Primitives, builder: Builder) -> Result<Bvh, BuildError> {
@@ -50,8 +54,11 @@ fn corners_out_of_range_are_refused() {
                 (-2.0 * limit, Some(BuildError::OutOfRange { prim: 2 })),
                 (0.99 * limit, None),
             ] {
-                let mut scene =
-                    Primitives { triangles: vec![triangle(); 4], spheres: vec![ball()] };
+                let mut scene = Primitives {
+                    triangles: vec![triangle(); 4],
+                    spheres: vec![ball()],
+                    cones: vec![],
+                };
                 scene.triangles[2].corners[corner][axis] = value;
                 let why = refusal(&scene);
                 // The own box of a corner near the largest number overflows: either name will do.
@@ -81,8 +88,38 @@ fn spheres_out_of_range_are_refused() {
     ];
     for (center, radius, want) in cases {
         let spheres = vec![ball(), Sphere { center, radius }];
-        let scene = Primitives { triangles: vec![triangle(); 2], spheres };
+        let triangles = vec![triangle(); 2];
+        let scene = Primitives { triangles, spheres, ..Primitives::default() };
         assert_eq!(refusal(&scene), want, "a sphere of radius {radius} at {center}");
+    }
+}
+
+#[test]
+fn cones_out_of_range_are_refused() {
+    let limit = power(40);
+    let (here, there) = (Vec3::ZERO, Vec3::Y);
+    let cases = [
+        (here, 1.0, here, 2.0, Some(BuildError::NoMantle { prim: 4 })),
+        (here, 0.0, there, -0.0, Some(BuildError::NoMantle { prim: 4 })),
+        (here, -1.0, there, 1.0, Some(BuildError::NoMantle { prim: 4 })),
+        (here, 1.0, there, -1.0, Some(BuildError::NoMantle { prim: 4 })),
+        (here, f32::NAN, there, 1.0, Some(BuildError::NotFinite { prim: 4 })),
+        (here, 1.0, there, f32::INFINITY, Some(BuildError::NotFinite { prim: 4 })),
+        (here, 1.0, Vec3::new(0.0, f32::NAN, 0.0), 1.0, Some(BuildError::NotFinite { prim: 4 })),
+        (here, 2.0 * limit, there, 1.0, Some(BuildError::OutOfRange { prim: 4 })),
+        (here, 1.0, Vec3::X * -2.0 * limit, 1.0, Some(BuildError::OutOfRange { prim: 4 })),
+        (here, 0.0, Vec3::X * limit, limit, None),
+        (here, 1.0, Vec3::new(0.0, 1e-45, 0.0), 0.0, None),
+    ];
+    for (base, base_radius, apex, apex_radius, want) in cases {
+        let cones = vec![cone(), Cone { base, base_radius, apex, apex_radius }];
+        let (triangles, spheres) = (vec![triangle(); 2], vec![ball()]);
+        let scene = Primitives { triangles, spheres, cones };
+        assert_eq!(
+            refusal(&scene),
+            want,
+            "from {base_radius} at {base} to {apex_radius} at {apex}"
+        );
     }
 }
 
@@ -90,7 +127,7 @@ fn spheres_out_of_range_are_refused() {
 fn refusals_name_the_primitive() {
     let scene = Primitives {
         triangles: vec![triangle(), Triangle { corners: [Vec3::NAN; 3] }],
-        spheres: vec![],
+        ..Primitives::default()
     };
     let why = refusal(&scene).expect("refused").to_string();
     assert!(why.contains("primitive 1") && why.contains("finite"), "{why}");
@@ -118,9 +155,12 @@ fn nothing_is_hit_where_there_is_nothing() {
 
 #[test]
 fn one_primitive_is_one_leaf() {
-    let scenes = [(vec![triangle()], vec![]), (vec![], vec![ball()])];
-    for (triangles, spheres) in scenes {
-        let scene = Primitives { triangles, spheres };
+    let nothing = Primitives::default;
+    for scene in [
+        Primitives { triangles: vec![triangle()], ..nothing() },
+        Primitives { spheres: vec![ball()], ..nothing() },
+        Primitives { cones: vec![cone()], ..nothing() },
+    ] {
         for plan in every_plan(Method::default()) {
             let bvh = build_as(&scene, plan).expect("in range");
             assert_eq!((bvh.nodes(), bvh.depth(), bvh.references()), (1, 1, 1), "{plan:?}");
@@ -173,7 +213,8 @@ fn pathological_scenes_build_and_are_right() {
     });
     let cases = scenes.iter().flat_map(|scene| plans.iter().map(move |&plan| (scene, plan)));
     for ((name, count, shape), plan) in cases {
-        let scene = Primitives { triangles: (0..*count).map(shape).collect(), spheres: vec![] };
+        let scene =
+            Primitives { triangles: (0..*count).map(shape).collect(), ..Primitives::default() };
         let built = std::thread::scope(|scope| {
             let thread = std::thread::Builder::new().stack_size(512 << 10);
             let build = || build_as(&scene, plan).expect("in range");

@@ -152,7 +152,7 @@ fn a_screen_hides_no_piece() {
                 aim::at(origin, inside)
             })
             .collect();
-        let alone = Primitives { triangles: vec![large], spheres: vec![] };
+        let alone = Primitives { triangles: vec![large], ..Primitives::default() };
         let found = closest(&Brute::build(&alone).expect("in range"), exec, &rays);
         for (i, hit) in found.into_iter().enumerate() {
             let ray = rays.get(i);
@@ -171,7 +171,7 @@ fn a_screen_hides_no_piece() {
                 triangles.push(Triangle { corners: [corner(), corner(), corner()] });
             }
             triangles.extend([large; 4]);
-            let scene = Primitives { triangles, spheres: vec![] };
+            let scene = Primitives { triangles, ..Primitives::default() };
             let bvh = build(&scene, Builder::Spatial, &Sequential);
             tried += 1;
             cut += usize::from(bvh.references() > scene.len());

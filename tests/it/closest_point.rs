@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
-use rt_kernels::geom::{Sphere, Triangle};
+use rt_kernels::geom::{Cone, Sphere, Triangle};
 use rt_kernels::{Builder, Bvh, Layout, Plan, Primitives, Sequential};
 use rt_tests::random::Random;
 use rt_tests::strategies::{config, scene};
@@ -34,16 +34,40 @@ fn to_sphere(point: DVec3, sphere: &Sphere) -> f64 {
     (point.distance(sphere.center.as_dvec3()) - f64::from(sphere.radius)).abs()
 }
 
+/// To the edge that turns about the axis, on the point's side.
+fn to_cone(point: DVec3, cone: &Cone) -> f64 {
+    let (base, apex) = (cone.base.as_dvec3(), cone.apex.as_dvec3());
+    let axis = (apex - base).normalize();
+    let across = (point - base).reject_from(axis);
+    let out = across.try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+    let [from, to] = [(base, cone.base_radius), (apex, cone.apex_radius)]
+        .map(|(center, radius)| center + out * f64::from(radius));
+    least(|along| point.distance(from.lerp(to, along)))
+}
+
 fn extent(scene: &Primitives) -> f64 {
     let corners = scene.triangles.iter().flat_map(|triangle| triangle.corners);
     let spheres = scene.spheres.iter().flat_map(|ball| [ball.center, Vec3::splat(ball.radius)]);
-    corners.chain(spheres).fold(0.0, |most, point| point.abs().max_element().max(most)).into()
+    let radii = |cone: &Cone| Vec3::new(cone.base_radius, cone.apex_radius, 0.0);
+    let cones = scene.cones.iter().flat_map(|cone| [cone.base, cone.apex, radii(cone)]);
+    corners
+        .chain(spheres)
+        .chain(cones)
+        .fold(0.0, |most, point| point.abs().max_element().max(most))
+        .into()
+}
+
+/// The distances to all primitives.
+fn distances(scene: &Primitives, point: DVec3) -> Vec<f64> {
+    let triangles = scene.triangles.iter().map(|triangle| to_triangle(point, triangle));
+    let spheres = scene.spheres.iter().map(|sphere| to_sphere(point, sphere));
+    let cones = scene.cones.iter().map(|cone| to_cone(point, cone));
+    triangles.chain(spheres).chain(cones).collect()
 }
 
 fn check(scene: &Primitives, point: Vec3) {
     let exact = point.as_dvec3();
-    let triangles = scene.triangles.iter().map(|triangle| to_triangle(exact, triangle));
-    let each: Vec<_> = triangles.chain(scene.spheres.iter().map(|s| to_sphere(exact, s))).collect();
+    let each = distances(scene, exact);
     let want = each.iter().copied().fold(f64::INFINITY, f64::min);
     // What f32 and a search by halves leave.
     let slack = 1e-6 * (want + extent(scene) + f64::from(point.abs().max_element()));
@@ -61,18 +85,8 @@ fn check(scene: &Primitives, point: Vec3) {
     assert!((each[got.prim as usize] - want).abs() <= slack, "{point}: {got:?}, not {want}");
     let apart = f64::from(point.distance(got.point));
     assert!((apart - want).abs() <= slack, "{point}: {got:?} is {apart} away");
-    let on_it = Primitives {
-        triangles: scene.triangles.get(got.prim as usize).copied().into_iter().collect(),
-        spheres: (got.prim as usize)
-            .checked_sub(scene.triangles.len())
-            .map(|sphere| scene.spheres[sphere])
-            .into_iter()
-            .collect(),
-    };
-    let there = got.point.as_dvec3();
-    let off = on_it.triangles.iter().map(|triangle| to_triangle(there, triangle));
-    let off = off.chain(on_it.spheres.iter().map(|sphere| to_sphere(there, sphere)));
-    assert!(off.sum::<f64>() <= slack, "{point}: {got:?} is on nothing");
+    let off = distances(scene, got.point.as_dvec3())[got.prim as usize];
+    assert!(off <= slack, "{point}: {got:?} is not on it");
 
     for bvh in &bvhs {
         let plan = bvh.plan();
@@ -109,9 +123,16 @@ fn of_many_the_same_by_every_plan() {
         let at = random.in_cube() * 10.0;
         Triangle { corners: [(); 3].map(|()| at + random.in_cube()) }
     };
+    let cone = |random: &mut Random| {
+        let base = random.in_cube() * 10.0;
+        let apex = base + random.in_cube();
+        let [base_radius, apex_radius] = [(); 2].map(|()| random.signed().abs());
+        Cone { base, base_radius, apex, apex_radius }
+    };
     let scene = Primitives {
         triangles: (0..300).map(|_| triangle(&mut random)).collect(),
-        spheres: vec![],
+        cones: (0..50).map(|_| cone(&mut random)).collect(),
+        ..Primitives::default()
     };
     for _ in 0..3 {
         check(&scene, random.in_cube() * 12.0);
@@ -121,7 +142,7 @@ fn of_many_the_same_by_every_plan() {
 #[test]
 fn what_is_not_a_point_is_close_to_nothing() {
     let ball = Sphere { center: Vec3::ZERO, radius: 1.0 };
-    let scene = Primitives { triangles: vec![], spheres: vec![ball] };
+    let scene = Primitives { spheres: vec![ball], ..Primitives::default() };
     let bvh = Bvh::build(&scene, &Sequential).unwrap();
     for point in [Vec3::NAN, Vec3::INFINITY, Vec3::X * f32::NEG_INFINITY] {
         assert_eq!(bvh.closest_point(&scene, point, f32::INFINITY), None);

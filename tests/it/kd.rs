@@ -17,7 +17,7 @@ fn build(scene: &Primitives, builder: KdBuilder) -> KdTree {
 }
 
 fn flat(triangles: Vec<Triangle>) -> Primitives {
-    Primitives { triangles, spheres: vec![] }
+    Primitives { triangles, ..Primitives::default() }
 }
 
 fn best() -> Exec {

@@ -33,7 +33,7 @@ fn through(from: f32, to: f32) -> Rays {
 fn the_nearest_come_first_and_the_rest_is_dropped() {
     let n = 1024;
     let triangles = (0..n).map(|i| screen(i as f32)).collect();
-    let scene = Primitives { triangles, spheres: vec![] };
+    let scene = Primitives { triangles, ..Primitives::default() };
     for layout in WIDE {
         let bvh = build(&scene, Builder::BinnedSah, layout);
         assert!(bvh.nodes() > 30, "{layout:?}: {} nodes", bvh.nodes());
@@ -55,7 +55,7 @@ fn the_nearest_come_first_and_the_rest_is_dropped() {
 #[test]
 fn any_hit_is_enough() {
     let balls = (0..500).map(|i| Sphere { center: Vec3::ZERO, radius: 1.0 + i as f32 });
-    let scene = Primitives { triangles: vec![], spheres: balls.collect() };
+    let scene = Primitives { spheres: balls.collect(), ..Primitives::default() };
     for layout in WIDE {
         let bvh = build(&scene, Builder::BinnedSah, layout);
         let (mut found, mut any, mut all) = (Vec::new(), Stats::default(), Stats::default());
@@ -75,7 +75,8 @@ fn equal_distances_go_to_the_lowest_number() {
     let mut triangles: Vec<_> = (0..50).map(|i| screen(9.0 + i as f32)).collect();
     for wins in [0, 1, 5, 23, 49] {
         triangles[wins..].fill(screen(0.0));
-        let scene = Primitives { triangles: triangles.clone(), spheres: vec![ball; 20] };
+        let scene =
+            Primitives { triangles: triangles.clone(), spheres: vec![ball; 20], cones: vec![] };
         for builder in Builder::ALL {
             for layout in WIDE {
                 let bvh = build(&scene, builder, layout);
@@ -94,7 +95,7 @@ fn equal_distances_go_to_the_lowest_number() {
 /// Wide nodes are for single rays and the default triangle test.
 #[test]
 fn a_choice_comes_to_what_there_is() {
-    let scene = Primitives { triangles: vec![screen(0.0)], spheres: vec![] };
+    let scene = Primitives { triangles: vec![screen(0.0)], ..Primitives::default() };
     let methods = Method::ALL.into_iter();
     for (method, layout) in methods.flat_map(|method| Layout::ALL.map(|layout| (method, layout))) {
         let plan = Plan { layout, method, ..Plan::default() };

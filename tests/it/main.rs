@@ -4,6 +4,7 @@ mod accelerators;
 mod build;
 mod builders;
 mod closest_point;
+mod cone;
 mod kd;
 mod layouts;
 mod padding;

@@ -121,7 +121,7 @@ struct Count {
 /// Judges the kernel's hits of one triangle.
 fn judge(corners: [Vec3; 3], rays: &Rays, exec: Exec, count: &mut Count) {
     let triangle = Triangle { corners };
-    let scene = Primitives { triangles: vec![triangle], spheres: vec![] };
+    let scene = Primitives { triangles: vec![triangle], ..Primitives::default() };
     let brute = Brute::build(&scene).expect("in range");
     for (i, hit) in closest(&brute, exec, rays).into_iter().enumerate() {
         let ray = rays.get(i);

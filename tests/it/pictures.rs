@@ -19,8 +19,9 @@ const SIZE: (u32, u32) = (75, 50);
 const INTEGRATORS: [Integrator; 4] =
     [Integrator::Whitted, Integrator::Eyelight, Integrator::Normals, Integrator::Depth];
 
-fn scenes() -> [Scene; 3] {
-    [bumpy(), room(), rt_scene::open("spd:balls:2").expect("a scene that is computed")]
+fn scenes() -> [Scene; 5] {
+    let computed = |name| rt_scene::open(name).expect("a scene that is computed");
+    [bumpy(), room(), computed("spd:balls:2"), computed("spd:rings:1"), computed("spd:tree:3")]
 }
 
 /// The picture of a scene, seen as it says or from in front.

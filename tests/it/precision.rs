@@ -79,7 +79,7 @@ fn worst(method: Method, kind: usize, seed: u64) -> [f64; 3] {
         let (eye, corners) = hard(kind, &mut random);
         let foretold = foretold(eye, corners);
         let foretold = foretold.iter().find(|p| p.method == method).expect("all are foretold");
-        let scene = Primitives { triangles: vec![Triangle { corners }], spheres: vec![] };
+        let scene = Primitives { triangles: vec![Triangle { corners }], ..Primitives::default() };
         let brute = Brute::build_with(&scene, method).expect("in range");
         let aimed: Rays = (0..64).map(|_| aim::at(eye, near_edge(corners, &mut random))).collect();
         for (i, hit) in closest(&brute, exec, &aimed).into_iter().enumerate() {
@@ -236,7 +236,7 @@ fn off(scene: &Scene, method: Method) -> (usize, f64) {
     let corners = |t: &rt_scene::Triangle| t.position.map(|i| scene.mesh.positions[i as usize]);
     let triangles: Vec<_> =
         scene.mesh.triangles.iter().map(|t| Triangle { corners: corners(t) }).collect();
-    let primitives = Primitives { triangles, spheres: vec![] };
+    let primitives = Primitives { triangles, ..Primitives::default() };
     let view = view(scene);
     let camera = Pinhole::new(
         view.eye,

@@ -28,6 +28,7 @@ fn turned_around(scene: &Primitives) -> Primitives {
     let mut moved = scene.clone();
     moved.triangles.reverse();
     moved.spheres.reverse();
+    moved.cones.reverse();
     moved
 }
 
@@ -72,16 +73,18 @@ fn other_scenes_are_refused_and_change_nothing() {
 }
 
 fn refuses_others(scene: &Primitives, mut bvh: Bvh) {
-    let built = [scene.triangles.len(), 0];
+    let built = [scene.triangles.len(), 0, 0];
 
     let mut more = scene.clone();
     more.triangles.push(Triangle { corners: [Vec3::ZERO, Vec3::X, Vec3::Y] });
-    let given = [built[0] + 1, 0];
+    let given = [built[0] + 1, 0, 0];
     let refused = bvh.refit(&more).expect_err("one more");
     assert_eq!(refused, RefitError::Counts { built, given });
-    assert!(refused.to_string().contains(&format!("{} triangles and 0 spheres", built[0])));
+    assert!(
+        refused.to_string().contains(&format!("{} triangles, 0 spheres and 0 cones", built[0]))
+    );
     let refused = bvh.refit(&Primitives::default()).expect_err("none");
-    assert_eq!(refused, RefitError::Counts { built, given: [0, 0] });
+    assert_eq!(refused, RefitError::Counts { built, given: [0; 3] });
 
     let mut bad = scene.clone();
     bad.triangles[3].corners[1].y = f32::NAN;

@@ -13,12 +13,16 @@ fn hits_of_each(scene: &Primitives, method: Method, ray: &Ray) -> Vec<Hit> {
     let triangles = scene
         .triangles
         .iter()
-        .map(|&triangle| Primitives { triangles: vec![triangle], spheres: vec![] });
-    let spheres =
-        scene.spheres.iter().map(|&sphere| Primitives { triangles: vec![], spheres: vec![sphere] });
+        .map(|&triangle| Primitives { triangles: vec![triangle], ..Primitives::default() });
+    let spheres = scene
+        .spheres
+        .iter()
+        .map(|&sphere| Primitives { spheres: vec![sphere], ..Primitives::default() });
+    let cones =
+        scene.cones.iter().map(|&cone| Primitives { cones: vec![cone], ..Primitives::default() });
     let rays: Rays = [*ray].into_iter().collect();
     let mut hits: Vec<Hit> = (0..)
-        .zip(triangles.chain(spheres))
+        .zip(triangles.chain(spheres).chain(cones))
         .filter_map(|(prim, alone)| {
             let brute = Brute::build_with(&alone, method).expect("in range");
             let hit = closest(&brute, Exec::best().expect("a level"), &rays)[0]?;

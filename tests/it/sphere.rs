@@ -36,7 +36,7 @@ fn with_random(
                 aim::paced(aim::at(origin, target), random.below(9) as i32 - 4)
             })
             .collect();
-        let scene = Primitives { triangles: vec![], spheres: vec![ball] };
+        let scene = Primitives { spheres: vec![ball], ..Primitives::default() };
         let brute = Brute::build(&scene).expect("in range");
         for (i, hit) in closest(&brute, exec, &rays).into_iter().enumerate() {
             let ray = rays.get(i);
@@ -141,7 +141,7 @@ fn rays_from_near_the_surface_are_right() {
 #[test]
 fn roots_come_in_order() {
     let ball = Sphere { center: Vec3::new(0.0, 0.0, 8.0), radius: 2.0 };
-    let scene = Primitives { triangles: vec![], spheres: vec![ball] };
+    let scene = Primitives { spheres: vec![ball], ..Primitives::default() };
     let brute = Brute::build(&scene).expect("in range");
     let ray = Ray::new(Vec3::ZERO, Vec3::Z);
     let cases = [
@@ -178,7 +178,8 @@ fn extreme_spheres_make_sense() {
     for _ in 0..rays(20_000) {
         let radius = random.magnitude(-40, 38).abs();
         let center = random.in_cube() * random.magnitude(-30, 38);
-        let scene = Primitives { triangles: vec![], spheres: vec![Sphere { center, radius }] };
+        let scene =
+            Primitives { spheres: vec![Sphere { center, radius }], ..Primitives::default() };
         let brute = Brute::build(&scene).expect("in range");
         let rays: Rays = (0..9)
             .map(|i| {

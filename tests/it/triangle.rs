@@ -13,7 +13,7 @@ use rt_tests::{aim, rays};
 const BATCH: usize = 64;
 
 fn hits(corners: [Vec3; 3], rays: &Rays, exec: Exec) -> Vec<Option<Hit>> {
-    let scene = Primitives { triangles: vec![Triangle { corners }], spheres: vec![] };
+    let scene = Primitives { triangles: vec![Triangle { corners }], ..Primitives::default() };
     closest(&Brute::build(&scene).expect("in range"), exec, rays)
 }
 

@@ -3,7 +3,7 @@
 
 use glam::{DVec3, Vec3};
 use rt_kernels::Ray;
-use rt_kernels::geom::{Aabb, Sphere};
+use rt_kernels::geom::{Aabb, Cone, Sphere};
 pub use rt_kernels::reference::{ROUNDOFF, ulps};
 
 /// The triangle test that everybody writes first, in `f32` and without a tolerance (Möller and
@@ -143,6 +143,40 @@ pub fn sphere(ray: &Ray, sphere: &Sphere) -> Roots {
     let passes = l.cross(d).length() / d.length() / radius;
     let half = radius * (1.0 - passes * passes).sqrt() / d.length();
     Roots { t: [nearest - half, nearest + half], passes }
+}
+
+/// How a ray meets a cone or cylinder.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Encounter {
+    /// Where it first does.
+    pub t: Option<f64>,
+    /// Whether it is inside where it comes between the ends, or starts there.
+    pub inside: bool,
+}
+
+/// By the schoolbook's roots, in `f64`, of a ray that is moved by so much.
+pub fn cone(ray: &Ray, moved: DVec3, cone: &Cone) -> Encounter {
+    let (base, apex) = (cone.base.as_dvec3(), cone.apex.as_dvec3());
+    let axis = (apex - base).normalize();
+    let [base_radius, apex_radius] = [cone.base_radius, cone.apex_radius].map(f64::from);
+    let height = (apex - base).length();
+    let slope = (apex_radius - base_radius) / height;
+    let (place, dir) = (ray.origin.as_dvec3() + moved - base, ray.dir.as_dvec3());
+    let (z, dz) = (place.dot(axis), dir.dot(axis));
+    let (p, e) = (place - axis * z, dir - axis * dz);
+    // |p + e t|² = (base_radius + slope (z + dz t))²
+    let (width, widening) = (base_radius + slope * z, slope * dz);
+    let a = e.dot(e) - widening * widening;
+    let b = p.dot(e) - width * widening;
+    let c = p.dot(p) - width * width;
+    let root = (b * b - a * c).sqrt();
+    let q = -(b + root.copysign(b));
+    let counts = |t: &f64| *t >= f64::from(ray.tmin) && (0.0..=height).contains(&(z + dz * t));
+    let t = [c / q, q / a].into_iter().filter(counts).min_by(f64::total_cmp);
+
+    let first_end = if dz > 0.0 { -z / dz } else { (height - z) / dz };
+    let start = first_end.max(ray.tmin.into());
+    Encounter { t, inside: (p + e * start).length() < width + widening * start }
 }
 
 #[cfg(test)]

@@ -123,6 +123,12 @@ pub fn scaled(mut scene: Scene, factor: f32) -> Scene {
         sphere.center *= factor;
         sphere.radius *= factor;
     }
+    for cone in &mut scene.cones {
+        cone.base *= factor;
+        cone.base_radius *= factor;
+        cone.apex *= factor;
+        cone.apex_radius *= factor;
+    }
     scene.lights.iter_mut().for_each(|light| light.position *= factor);
     if let Some(view) = &mut scene.view {
         view.eye *= factor;

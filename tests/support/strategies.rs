@@ -6,7 +6,7 @@ use glam::Vec3;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::FileFailurePersistence;
-use rt_kernels::geom::{Aabb, Sphere, Triangle};
+use rt_kernels::geom::{Aabb, Cone, Sphere, Triangle};
 use rt_kernels::{Primitives, Ray};
 
 use crate::aim;
@@ -18,8 +18,7 @@ pub fn config() -> ProptestConfig {
     ProptestConfig { failure_persistence: Some(Box::new(saved)), ..ProptestConfig::default() }
 }
 
-/// From no primitive to some forty, triangles and spheres, that share corners from a small pool:
-/// on an integer grid or anywhere, at any scale, near the origin or far from it.
+/// From no primitive to some forty, of all kinds, that share corners from a small pool: on an integer grid or anywhere, at any scale, near the origin or far from it.
 pub fn scene() -> impl Strategy<Value = Primitives> {
     let grid = prop::array::uniform3((-3i8..=3).prop_map(f32::from));
     let anywhere = prop::array::uniform3(-1.0f32..1.0);
@@ -69,19 +68,29 @@ enum Shape {
     Needle([Index; 2], f64, i8),
     /// About one of the pool.
     Sphere(Index, f32),
-    /// The last triangle and the last sphere once more, so many times.
+    /// From one of the pool to another, with these radii, unless they coincide.
+    Cone([Index; 2], [f32; 2]),
+    /// The last primitive of each kind once more, so many times.
     Copies(usize),
 }
 
 fn shape() -> impl Strategy<Value = Shape> {
     let three = any::<[Index; 3]>;
     let radius = prop_oneof![Just(1.0f32), Just(0.5), Just(1e-3), Just(30.0), 0.1f32..3.0];
+    let radii = prop_oneof![
+        Just([1.0, 1.0]),
+        Just([0.5, 0.0]),
+        Just([0.0, 2.0]),
+        (0.1f32..3.0).prop_map(|radius| [radius; 2]),
+        [1e-3f32..3.0, 1e-3f32..3.0],
+    ];
     prop_oneof![
         6 => three().prop_map(Shape::Triangle),
         3 => (three(), 0..3usize).prop_map(|(three, axis)| Shape::Flat(three, axis)),
         2 => (any::<[Index; 2]>(), -0.2f64..1.2, -2i8..=2)
             .prop_map(|(ends, s, off)| Shape::Needle(ends, s, off)),
         3 => (any::<Index>(), radius).prop_map(|(center, radius)| Shape::Sphere(center, radius)),
+        3 => (any::<[Index; 2]>(), radii).prop_map(|(ends, radii)| Shape::Cone(ends, radii)),
         1 => (1..20usize).prop_map(Shape::Copies),
     ]
 }
@@ -109,12 +118,20 @@ impl Shape {
                 scene.spheres.push(Sphere { center, radius: radius * scale });
                 return;
             }
+            Shape::Cone(ends, radii) => {
+                let [base, apex] = ends.map(|i| *i.get(pool));
+                let [base_radius, apex_radius] = radii.map(|radius| radius * scale);
+                if base != apex {
+                    scene.cones.push(Cone { base, base_radius, apex, apex_radius });
+                }
+                return;
+            }
             Shape::Copies(count) => {
-                let (triangle, sphere) =
-                    (scene.triangles.last().copied(), scene.spheres.last().copied());
+                let last = scene.clone();
                 for _ in 0..*count {
-                    scene.triangles.extend(triangle);
-                    scene.spheres.extend(sphere);
+                    scene.triangles.extend(last.triangles.last());
+                    scene.spheres.extend(last.spheres.last());
+                    scene.cones.extend(last.cones.last());
                 }
                 return;
             }
@@ -218,15 +235,21 @@ fn spot() -> impl Strategy<Value = Spot> {
 }
 
 impl Spot {
-    /// The place in that scene. Of a sphere, all corners are the centre.
+    /// The place in that scene. The corners of a sphere are its centre, those of a cone its ends.
     fn find(&self, scene: &Primitives) -> Vec3 {
         let boxes = || {
             let flat = scene.triangles.iter().map(Triangle::own_box);
-            flat.chain(scene.spheres.iter().map(Sphere::own_box))
+            let round = flat.chain(scene.spheres.iter().map(Sphere::own_box));
+            round.chain(scene.cones.iter().map(Cone::own_box))
         };
+        let (spheres, cones) = (scene.triangles.len(), scene.triangles.len() + scene.spheres.len());
         let corners = |of: &Index| match of.index(scene.len()) {
-            i if i < scene.triangles.len() => scene.triangles[i].corners,
-            i => [scene.spheres[i - scene.triangles.len()].center; 3],
+            i if i < spheres => scene.triangles[i].corners,
+            i if i < cones => [scene.spheres[i - spheres].center; 3],
+            i => {
+                let Cone { base, apex, .. } = scene.cones[i - cones];
+                [base, apex, base]
+            }
         };
         let around = |at: &[f32; 3], reach: f32| {
             let all = boxes().fold(Aabb::EMPTY, |all, one| all.union(&one));

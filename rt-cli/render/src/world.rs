@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use rt_kernels::geom::{Aabb, Sphere, Triangle};
+use rt_kernels::geom::{Aabb, Cone, Sphere, Triangle};
 use rt_kernels::tri::Method;
 use rt_kernels::{Accelerator, Brute, BuildError, Bvh, Exec, KdBuilder, KdPlan, KdTree};
 use rt_kernels::{Mailbox, Plan, Primitives};
@@ -74,7 +74,7 @@ impl World {
         plan: Plan,
         threads: usize,
     ) -> Result<World, RenderError> {
-        if scene.mesh.triangles.is_empty() && scene.spheres.is_empty() {
+        if scene.mesh.triangles.is_empty() && scene.spheres.is_empty() && scene.cones.is_empty() {
             return Err(RenderError::Empty(scene.name));
         }
         let bounds = bounds(&scene);
@@ -85,6 +85,12 @@ impl World {
         for sphere in &mut scene.spheres {
             sphere.center *= scale;
             sphere.radius *= scale;
+        }
+        for cone in &mut scene.cones {
+            cone.base *= scale;
+            cone.base_radius *= scale;
+            cone.apex *= scale;
+            cone.apex_radius *= scale;
         }
 
         let start = Instant::now();
@@ -151,6 +157,11 @@ impl World {
         self.scene.spheres.len()
     }
 
+    /// The number of cones and cylinders.
+    pub fn cones(&self) -> usize {
+        self.scene.cones.len()
+    }
+
     /// The time that it took to build the acceleration structure.
     pub fn build_time(&self) -> Duration {
         self.build_time
@@ -163,6 +174,7 @@ impl World {
             + size_of_val(&*mesh.normals)
             + size_of_val(&*mesh.triangles)
             + size_of_val(&*scene.spheres)
+            + size_of_val(&*scene.cones)
             + size_of_val(&*scene.materials)
             + size_of_val(&*scene.lights)
     }
@@ -185,11 +197,18 @@ pub(crate) fn corners(scene: &Scene, triangle: &rt_scene::Triangle) -> [Vec3; 3]
 
 fn primitives(scene: &Scene) -> Primitives {
     let flat = |triangle| Triangle { corners: corners(scene, triangle) };
+    let cone = |cone: &rt_scene::Cone| Cone {
+        base: cone.base,
+        base_radius: cone.base_radius,
+        apex: cone.apex,
+        apex_radius: cone.apex_radius,
+    };
     let sphere =
         |sphere: &rt_scene::Sphere| Sphere { center: sphere.center, radius: sphere.radius };
     Primitives {
         triangles: scene.mesh.triangles.iter().map(flat).collect(),
         spheres: scene.spheres.iter().map(sphere).collect(),
+        cones: scene.cones.iter().map(cone).collect(),
     }
 }
 

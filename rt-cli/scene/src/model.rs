@@ -45,10 +45,6 @@ impl Scene {
         if self.materials.is_empty() {
             self.materials.push(Material::default());
         }
-        if !self.cones.is_empty() {
-            let (what, why) = ("cone".to_owned(), CONES_ARE_NOT_DRAWN.to_owned());
-            self.facts.skipped.push(Skipped { what, why, count: self.cones.len() as u64 });
-        }
         let flat = self.mesh.triangles.iter().filter(|triangle| self.mesh.area(triangle) == 0.0);
         match flat.count() {
             0 => {}
@@ -60,9 +56,6 @@ impl Scene {
         }
     }
 }
-
-/// Why a picture lacks them.
-pub(crate) const CONES_ARE_NOT_DRAWN: &str = "cones and cylinders are drawn with --tessellate only";
 
 /// Triangles with shared vertices.
 #[derive(Clone, Debug, Default)]

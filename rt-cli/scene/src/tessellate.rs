@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use glam::DVec3;
 
 use crate::diag::Error;
-use crate::model::{CONES_ARE_NOT_DRAWN, Cone, Mesh, Scene, Sphere, Triangle};
+use crate::model::{Cone, Mesh, Scene, Sphere, Triangle};
 
 /// The resolution at which the Standard Procedural Databases count their triangles: 192 for a
 /// sphere and 32 for a cone or cylinder.
@@ -46,7 +46,6 @@ pub fn tessellate(mut scene: Scene, resolution: u32) -> Result<Scene, Error> {
     for cone in scene.cones.drain(..) {
         circle.add(&mut scene.mesh, &cone);
     }
-    scene.facts.skipped.retain(|skipped| skipped.why != CONES_ARE_NOT_DRAWN);
     Ok(scene)
 }
 

@@ -121,7 +121,7 @@ impl Built {
 
     /// What the hierarchy takes for each primitive, and its copy of that.
     fn bytes_per_primitive(&self) -> f64 {
-        let primitives = self.world.triangles() + self.world.spheres();
+        let primitives = self.world.triangles() + self.world.spheres() + self.world.cones();
         self.world.accel_bytes() as f64 / primitives as f64
     }
 }
@@ -204,7 +204,7 @@ impl Compared {
     fn line(self, kind: &str, row: &Row, measured: &[Row], built: &Built, first: &Built) -> String {
         let times = |other: &Row| other.time.as_secs_f64() / row.time.as_secs_f64();
         let per_ray = |count: u64| count as f64 / row.rays as f64;
-        let tests = per_ray(row.stats.triangle_tests + row.stats.sphere_tests);
+        let tests = per_ray(row.stats.primitive_tests());
         match self {
             Compared::Levels => format!(
                 "{:<7}{:>7}{:>9.2}{:>8.2}{:>10.2}{:>11.1}{:>11.1}",
@@ -264,7 +264,7 @@ fn row_json(scene: &str, kind: &str, built: &Built, row: &Row) -> Value {
         "ns": row.time.as_secs_f64() * 1e9 / row.rays as f64,
         "mrays_per_s": mrays_per_s(row),
         "nodes_per_ray": per_ray(row.stats.box_tests),
-        "tests_per_ray": per_ray(row.stats.triangle_tests + row.stats.sphere_tests),
+        "tests_per_ray": per_ray(row.stats.primitive_tests()),
         "build_ms": built.time.as_secs_f64() * 1e3,
         "bytes": world.accel_bytes(),
     })

@@ -46,7 +46,11 @@ impl Rendered<'_> {
             "{output}: {}x{}, {}; {} built in {}, rendered in {} (tracing {}); Mray/s: {}; {}, {}; {}",
             self.job.size.0,
             self.job.size.1,
-            number_of(&[("triangle", world.triangles()), ("sphere", world.spheres())]),
+            number_of(&[
+                ("triangle", world.triangles()),
+                ("sphere", world.spheres()),
+                ("cone", world.cones()),
+            ]),
             world.accel_kind().name(),
             time(world.build_time()),
             time(made.total),
@@ -100,6 +104,7 @@ impl Rendered<'_> {
             "box_tests": made.stats.box_tests,
             "triangle_tests": made.stats.triangle_tests,
             "sphere_tests": made.stats.sphere_tests,
+            "cone_tests": made.stats.cone_tests,
         })
     }
 }

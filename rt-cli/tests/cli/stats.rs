@@ -32,6 +32,7 @@ const KEYS: [&str; 27] = [
     "box_tests",
     "triangle_tests",
     "sphere_tests",
+    "cone_tests",
 ];
 
 #[track_caller]

@@ -10,8 +10,8 @@ use glam::{DVec3, Vec3};
 use super::layout::{Child, SkipArray, Wide, WideNode};
 use super::with_array;
 use super::{Array, Bvh};
-use crate::geom::{Aabb, Sphere, Triangle};
-use crate::primitives::Primitives;
+use crate::geom::{Aabb, Cone, Sphere, Triangle};
+use crate::primitives::{Primitive, Primitives};
 
 /// A point on a primitive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,15 +20,15 @@ pub struct ClosestPoint {
     pub distance: f32,
     /// Where it is, rounded.
     pub point: Vec3,
-    /// The primitive: triangles are numbered first, then spheres.
+    /// The primitive: triangles are numbered first, then spheres, then cones.
     pub prim: u32,
 }
 
 impl Bvh {
     /// The point of the surfaces of all primitives that is closest to `point` and no farther than
     /// `max_distance`; of equally close ones that of the lowest primitive. `primitives` are those
-    /// that it was built for, or [refitted](Bvh::refit) to. The inside of a sphere is as far from
-    /// its surface as the outside.
+    /// that it was built for, or [refitted](Bvh::refit) to. The inside of a sphere or a cone is
+    /// as far from its surface as the outside.
     ///
     /// A point that is not finite is close to nothing.
     ///
@@ -39,7 +39,7 @@ impl Bvh {
     /// # use glam::Vec3;
     /// # use rt_kernels::{Bvh, Primitives, Sequential, geom::Triangle};
     /// let floor = Triangle { corners: [Vec3::ZERO, Vec3::X * 4.0, Vec3::Z * 4.0] };
-    /// let scene = Primitives { triangles: vec![floor], spheres: vec![] };
+    /// let scene = Primitives { triangles: vec![floor], ..Primitives::default() };
     /// let bvh = Bvh::build(&scene, &Sequential)?;
     ///
     /// let above = Vec3::new(1.0, 3.0, 2.0);
@@ -162,12 +162,10 @@ impl<'a> Search<'a> {
     }
 
     fn consider(&mut self, prim: u32) {
-        let closest = match self.primitives.triangles.get(prim as usize) {
-            Some(triangle) => on_triangle(self.point, triangle),
-            None => {
-                let sphere = prim as usize - self.primitives.triangles.len();
-                on_sphere(self.point, &self.primitives.spheres[sphere])
-            }
+        let closest = match self.primitives.get(prim) {
+            Primitive::Triangle(triangle) => on_triangle(self.point, triangle),
+            Primitive::Sphere(sphere) => on_sphere(self.point, sphere),
+            Primitive::Cone(cone) => on_cone(self.point, cone),
         };
         let square = self.point.distance_squared(closest);
         if (square, prim) < self.best {
@@ -222,4 +220,19 @@ fn on_edge(point: DVec3, a: DVec3, b: DVec3) -> DVec3 {
 fn on_sphere(point: DVec3, sphere: &Sphere) -> DVec3 {
     let center = sphere.center.as_dvec3();
     center + (point - center).try_normalize().unwrap_or(DVec3::X) * f64::from(sphere.radius)
+}
+
+/// In the half plane through the axis and the point, the mantle is an edge. From the axis all half
+/// planes are as good.
+fn on_cone(point: DVec3, cone: &Cone) -> DVec3 {
+    let (axis, base) = (cone.axis(), cone.base.as_dvec3());
+    let from_base = point - base;
+    let along = from_base.dot(axis);
+    let across = from_base - axis * along;
+    let out = across.try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+    let at = |radius: f32, along: f64| DVec3::new(radius.into(), along, 0.0);
+    let height = (cone.apex.as_dvec3() - base).length();
+    let here = DVec3::new(across.length(), along, 0.0);
+    let closest = on_edge(here, at(cone.base_radius, 0.0), at(cone.apex_radius, height));
+    base + out * closest.x + axis * closest.y
 }

@@ -54,8 +54,8 @@ impl Bvh {
     /// No primitives, coinciding ones and ones without area are all fine.
     ///
     /// # Errors
-    /// If a coordinate is not finite or greater than 2^40, if a sphere has no radius, or if there
-    /// are more than 2^28 primitives.
+    /// If a coordinate is not finite or greater than 2^40, if a sphere has no radius or a cone
+    /// no mantle, or if there are more than 2^28 primitives.
     pub fn build(primitives: &Primitives, join: &impl Join) -> Result<Bvh, BuildError> {
         Bvh::build_with(primitives, Plan::default(), join)
     }
@@ -85,7 +85,8 @@ impl Bvh {
     /// The hits are those of the new positions.
     ///
     /// # Errors
-    /// As [`build`](Bvh::build), or if there are more triangles or spheres than before, or fewer.
+    /// As [`build`](Bvh::build), or if there are more primitives of a kind than before, or
+    /// fewer.
     /// The hierarchy stays as it was.
     pub fn refit(&mut self, primitives: &Primitives) -> Result<(), RefitError> {
         with_array!(&mut self.array, array => refit::refit(array, primitives))

@@ -2,7 +2,7 @@
 
 use crate::BuildError;
 use crate::geom::Aabb;
-use crate::primitives::Primitives;
+use crate::primitives::{KINDS, Primitives};
 
 /// Why a hierarchy does not take new positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -12,21 +12,21 @@ pub enum RefitError {
     Build(#[from] BuildError),
     /// There are more primitives of a kind than when it was built, or fewer.
     #[error(
-        "the hierarchy was built for {} triangles and {} spheres, not {} and {}",
-        built[0], built[1], given[0], given[1]
+        "the hierarchy was built for {} triangles, {} spheres and {} cones, not {}, {} and {}",
+        built[0], built[1], built[2], given[0], given[1], given[2]
     )]
     Counts {
-        /// How many triangles and spheres there were.
-        built: [usize; 2],
+        /// How many triangles, spheres and cones there were.
+        built: [usize; KINDS],
         /// How many there are.
-        given: [usize; 2],
+        given: [usize; KINDS],
     },
 }
 
 /// A layout that can.
 pub(super) trait Refit {
-    /// How many triangles and spheres it was made for.
-    fn counts(&self) -> [usize; 2];
+    /// How many triangles, spheres and cones it was made for.
+    fn counts(&self) -> [usize; KINDS];
 
     /// Takes new positions of the same primitives, whose own boxes these are, and keeps the tree.
     fn replace(&mut self, primitives: &Primitives, own_boxes: &[Aabb]);

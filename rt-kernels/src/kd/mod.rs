@@ -18,7 +18,8 @@
 //! `t`: the argument of [spatial splits](crate::bvh::build::spatial_splits#why-pieces-are-enough) holds
 //! word by word. A cell contains the piece of the own box in it and shares with it the planes of the
 //! cuts, so that some cell on every level is good. That the distances of planes are widened to both
-//! sides only makes cells better. So it is with spheres and with all triangle tests but the default.
+//! sides only makes cells better. So it is with spheres and cones, and with all triangle tests but the
+//! default.
 //!
 //! **Planes.** The box of a triangle askew to the axes is mostly empty, and to test it in all cells
 //! there costs a third of the tests. The hits of the [default test](crate::tri::Watertight) lie, within
@@ -63,7 +64,7 @@ pub use build::{GROWTH, KdBuilder};
 use crate::bvh::{BuildError, Join};
 use crate::geom::Aabb;
 use crate::mailbox::{Mailbox, Stamps};
-use crate::primitives::{Primitives, Store};
+use crate::primitives::{Primitives, Store, kind};
 use crate::tri::Method;
 use layout::{Cells, Pair};
 
@@ -163,11 +164,13 @@ fn fill(primitives: &Primitives, method: Method, list: &mut [u32]) -> Store {
     const NONE: u32 = u32::MAX;
     let mut slots = vec![NONE; primitives.len()];
     let mut order = Vec::with_capacity(primitives.len());
-    let mut next = [0, primitives.triangles.len() as u32];
+    let counts = primitives.counts();
+    let [triangles, spheres, _] = counts.map(|count| count as u32);
+    let mut next = [0, triangles, triangles + spheres];
     for entry in list {
         let prim = *entry as usize;
         if slots[prim] == NONE {
-            let kind = usize::from(prim >= primitives.triangles.len());
+            let kind = kind(&counts, *entry);
             slots[prim] = next[kind];
             next[kind] += 1;
             order.push(*entry);

@@ -21,6 +21,14 @@ pub struct Seen<V> {
     pub c: V,
 }
 
+impl<V: SimdF32> Seen<V> {
+    /// a, b and c.
+    #[inline(always)]
+    pub(super) fn equation(&self) -> [V; 3] {
+        [self.a, self.b, self.c]
+    }
+}
+
 /// How a surface is stated.
 pub trait Form: Send + Sync + 'static {
     /// In words.

@@ -9,6 +9,7 @@
 //! one. [`catalogue`] lists every method with every choice; what renders is [`sphere`].
 
 mod catalogue;
+pub mod cone;
 pub mod form;
 mod record;
 mod residual;

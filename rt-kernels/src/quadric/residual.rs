@@ -56,7 +56,7 @@ impl<S: Form, A: Rounding> QuadricKernel for Residual<S, A> {
         if meets.none() {
             return None;
         }
-        let roots = Roots { meets, t: q_roots(s, &seen, (seen.a * depth).sqrt()) };
+        let roots = Roots { meets, t: q_roots(s, seen.equation(), (seen.a * depth).sqrt()) };
         roots.first::<S, R>(s, records, &seen, packet, limit)
     }
 }

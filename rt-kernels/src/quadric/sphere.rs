@@ -115,7 +115,7 @@ fn test<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
     if meets.none() {
         return None;
     }
-    let roots = Roots { meets, t: q_roots(s, &seen, (seen.a * depth).sqrt()) };
+    let roots = Roots { meets, t: q_roots(s, seen.equation(), (seen.a * depth).sqrt()) };
     let (enter, exit) = robust::enter_exit(s, &own_box(), packet, frame);
     let [first, second] = roots.in_order();
     let t = first.ge(packet.tmin).select(first, second);

@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use simd4::{SimdF32, SimdMask};
 
-use super::form::{Form, Seen, words};
+use super::form::{Form, words};
 use super::{Found, QuadricKernel, Record, Records, Roots};
 use crate::geom::Curved;
 use crate::packet::{Frame, Packet};
@@ -52,14 +52,14 @@ impl<S: Form, A: Rounding> QuadricKernel for Stable<S, A> {
         if meets.none() {
             return None;
         }
-        let roots = Roots { meets, t: q_roots(s, &seen, discriminant.sqrt()) };
+        let roots = Roots { meets, t: q_roots(s, seen.equation(), discriminant.sqrt()) };
         roots.first::<S, R>(s, records, &seen, packet, limit)
     }
 }
 
-/// Both roots, from √(b² − a c).
+/// Both roots of a t² − 2 b t + c = 0, from √(b² − a c).
 #[inline(always)]
-pub(super) fn q_roots<V: SimdF32>(s: V::Simd, seen: &Seen<V>, root: V) -> [V; 2] {
-    let q = seen.b + seen.b.ge(V::splat(s, 0.0)).select(root, -root);
-    [seen.c / q, q / seen.a]
+pub(super) fn q_roots<V: SimdF32>(s: V::Simd, [a, b, c]: [V; 3], root: V) -> [V; 2] {
+    let q = b + b.ge(V::splat(s, 0.0)).select(root, -root);
+    [c / q, q / a]
 }

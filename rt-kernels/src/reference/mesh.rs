@@ -112,6 +112,9 @@ impl Mesh {
     /// All faces as triangles.
     pub fn primitives(&self) -> Primitives {
         let triangle = |face| Triangle { corners: self.corners(face) };
-        Primitives { triangles: (0..self.faces.len()).map(triangle).collect(), spheres: vec![] }
+        Primitives {
+            triangles: (0..self.faces.len()).map(triangle).collect(),
+            ..Primitives::default()
+        }
     }
 }

@@ -27,7 +27,7 @@ fn the_closest_of_many_is_the_same_in_every_shape() {
         let batch: Rays =
             (0..BATCH + 3).map(|_| aim::at(random.in_cube() * 3.0, random.in_cube())).collect();
         let mut brute = Hits::new();
-        let scene = Primitives { triangles: vec![], spheres };
+        let scene = Primitives { spheres, ..Primitives::default() };
         let accel = Brute::build(&scene).expect("in range");
         let exec = Exec::best().expect("a level");
         accel.closest(exec, &batch, &mut brute, &mut Stats::default());

@@ -40,7 +40,7 @@ fn the_closest_of_many_is_the_same_in_every_shape() {
                 Ray { tmax, ..Ray::new(origin, random.in_cube() - origin) }
             })
             .collect();
-        let scene = Primitives { triangles: triangles.clone(), spheres: vec![] };
+        let scene = Primitives { triangles: triangles.clone(), ..Primitives::default() };
         let mut brute = Hits::new();
         let exec = Exec::best().expect("a level");
         let accel = Brute::build(&scene).expect("in range");

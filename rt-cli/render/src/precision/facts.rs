@@ -31,7 +31,7 @@ impl Facts {
     pub fn of(scene: &Scene) -> Facts {
         let mut facts = Facts {
             triangles: scene.mesh.triangles.len(),
-            curved: scene.spheres.len(),
+            curved: scene.spheres.len() + scene.cones.len(),
             ..Facts::default()
         };
         let mut keys = Vec::with_capacity(facts.triangles);
@@ -63,6 +63,13 @@ impl Facts {
             let radius = f64::from(sphere.radius);
             facts.coordinate(f64::from(sphere.center.abs().max_element()) + radius);
             facts.feature(radius);
+        }
+        for cone in &scene.cones {
+            let [base, apex] = [cone.base_radius, cone.apex_radius].map(f64::from);
+            let (low, high) = cone.bounds();
+            facts.coordinate(low.abs().max(high.abs()).max_element().into());
+            facts.feature(base.max(apex));
+            facts.feature(cone.base.as_dvec3().distance(cone.apex.as_dvec3()));
         }
         facts
     }

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use rt_kernels::{Hit, Ray};
+use rt_scene::{Cone, Sphere};
 
 use crate::World;
 
@@ -25,9 +26,16 @@ const OFFSET: f32 = 64.0 / (1 << 24) as f32;
 impl Surface {
     /// The surface at a hit.
     pub(crate) fn at(world: &World, ray: &Ray, hit: &Hit) -> Surface {
-        match world.scene.mesh.triangles.get(hit.prim as usize) {
-            Some(triangle) => Surface::on_triangle(world, ray, hit, triangle),
-            None => Surface::on_sphere(world, ray, hit),
+        let scene = &world.scene;
+        let prim = hit.prim as usize;
+        let spheres = scene.mesh.triangles.len();
+        let cones = spheres + scene.spheres.len();
+        if prim < spheres {
+            Surface::on_triangle(world, ray, hit, &scene.mesh.triangles[prim])
+        } else if prim < cones {
+            Surface::on_sphere(ray, hit, &scene.spheres[prim - spheres])
+        } else {
+            Surface::on_cone(ray, hit, &scene.cones[prim - cones])
         }
     }
 
@@ -49,11 +57,24 @@ impl Surface {
         Surface::facing(ray, point, extent, true_normal, normal, triangle.material)
     }
 
-    fn on_sphere(world: &World, ray: &Ray, hit: &Hit) -> Surface {
-        let sphere = &world.scene.spheres[hit.prim as usize - world.scene.mesh.triangles.len()];
+    fn on_sphere(ray: &Ray, hit: &Hit, sphere: &Sphere) -> Surface {
         let normal = (ray.at(hit.t) - sphere.center).normalize_or(-ray.dir);
         let point = sphere.center + normal * sphere.radius;
         Surface::facing(ray, point, sphere.radius, normal, normal, sphere.material)
+    }
+
+    fn on_cone(ray: &Ray, hit: &Hit, cone: &Cone) -> Surface {
+        let (along, widening) = (cone.apex - cone.base, cone.apex_radius - cone.base_radius);
+        let height = along.length();
+        let axis = along / height;
+        let from_base = ray.at(hit.t) - cone.base;
+        let share = (from_base.dot(axis) / height).clamp(0.0, 1.0);
+        let out = from_base.reject_from_normalized(axis).normalize_or(-ray.dir);
+        let normal = (out * height - axis * widening).normalize();
+        let radius = cone.base_radius + widening * share;
+        let point = cone.base + along * share + out * radius;
+        let extent = height.max(cone.base_radius.max(cone.apex_radius));
+        Surface::facing(ray, point, extent, normal, normal, cone.material)
     }
 
     /// Turns the normals to the side that the ray came from.

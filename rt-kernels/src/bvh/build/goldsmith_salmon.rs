@@ -211,7 +211,8 @@ mod tests {
             let corners = [Vec3::ZERO, Vec3::new(1.0, 0.0, 0.3), Vec3::new(0.3, 1.0, 1.0)];
             Triangle { corners: corners.map(|corner| corner * size) }
         };
-        let scene = Primitives { triangles: (0..2000).map(triangle).collect(), spheres: vec![] };
+        let scene =
+            Primitives { triangles: (0..2000).map(triangle).collect(), ..Primitives::default() };
         let references: Vec<_> = Reference::all(&scene).collect();
         let tree = Growing::new(&references).finish();
         assert_eq!(tree.root.expect("there are primitives").depth(), MAX_DEPTH);

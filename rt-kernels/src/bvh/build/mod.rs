@@ -49,6 +49,12 @@ pub enum BuildError {
         /// The primitive's number.
         prim: usize,
     },
+    /// A cone's ends are the same point, one of its radii is negative, or both are 0.
+    #[error("primitive {prim} is a cone without a mantle")]
+    NoMantle {
+        /// The primitive's number.
+        prim: usize,
+    },
     /// There are more primitives than nodes can number.
     #[error("{primitives} primitives are too many: the limit is {limit}")]
     TooMany {
@@ -143,7 +149,7 @@ mod tests {
             let corners = [Vec3::ZERO, Vec3::new(1.0, 0.0, 0.5), Vec3::new(0.5, 1.0, 1.0)];
             Triangle { corners: corners.map(|corner| corner * 2.0f32.powi(i % 100 - 60)) }
         };
-        Primitives { triangles: (0..1000).map(triangle).collect(), spheres: vec![] }
+        Primitives { triangles: (0..1000).map(triangle).collect(), ..Primitives::default() }
     }
 
     /// Two heaps of triangles of all kinds, listed by turns.
@@ -153,7 +159,7 @@ mod tests {
             let at = |k: usize| (Vec3::new(0.61, 1.37, 2.71) * (i * k) as f32).map(f32::sin);
             Triangle { corners: [3, 5, 7].map(|k| at(k) + heap) }
         };
-        Primitives { triangles: (0..500).map(triangle).collect(), spheres: vec![] }
+        Primitives { triangles: (0..500).map(triangle).collect(), ..Primitives::default() }
     }
 
     /// So that the depth is bounded, whatever the scene: the levels of the heuristic and these.

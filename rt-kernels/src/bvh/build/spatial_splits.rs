@@ -273,6 +273,7 @@ mod tests {
         Primitives {
             triangles: (0..800).map(triangle).collect(),
             spheres: (0..60).map(sphere).collect(),
+            ..Primitives::default()
         }
     }
 

@@ -8,7 +8,7 @@ use std::ops::Range;
 use crate::bvh::build::{self, Content, Reference};
 use crate::bvh::refit::Refit;
 use crate::geom::Aabb;
-use crate::primitives::{Primitives, Store};
+use crate::primitives::{KINDS, Primitives, Store, kind};
 use crate::tri::Method;
 
 /// A box, and where to go from it.
@@ -53,16 +53,19 @@ impl SkipArray {
     pub(crate) fn new(primitives: &Primitives, tree: build::Tree, method: Method) -> SkipArray {
         let build::Tree { root, order: mut references } = tree;
         let mut flat = Flattener {
-            triangles: primitives.triangles.len() as u32,
+            counts: primitives.counts(),
             order: Vec::with_capacity(references.len()),
             ..Flattener::default()
         };
         if let Some(root) = root {
             flat.emit(root, &mut references);
         }
-        // The slots of spheres follow those of triangles.
-        for leaf in flat.of_spheres {
-            flat.nodes[leaf].leaf += flat.slots[0] << 4;
+        // The slots of a kind follow those of the kinds before it.
+        let [triangles, spheres, _] = flat.slots;
+        for (kind, before) in [(1, triangles), (2, triangles + spheres)] {
+            for &leaf in &flat.leaves[kind] {
+                flat.nodes[leaf].leaf += before << 4;
+            }
         }
         let store = Store::reordered(primitives, method, flat.order.into_iter());
         SkipArray { nodes: flat.nodes, store }
@@ -99,7 +102,7 @@ impl SkipArray {
 }
 
 impl Refit for SkipArray {
-    fn counts(&self) -> [usize; 2] {
+    fn counts(&self) -> [usize; KINDS] {
         self.store.counts()
     }
 
@@ -130,14 +133,14 @@ impl Refit for SkipArray {
 /// An array that grows.
 #[derive(Default)]
 struct Flattener {
-    /// How many primitives are triangles: the first.
-    triangles: u32,
+    /// How many primitives there are of each kind.
+    counts: [usize; KINDS],
     nodes: Vec<Node>,
     order: Vec<u32>,
-    /// How many slots there are of each kind: triangles, spheres.
-    slots: [u32; 2],
-    /// The leaves whose slots count from the first sphere's.
-    of_spheres: Vec<usize>,
+    /// How many slots there are of each kind.
+    slots: [u32; KINDS],
+    /// The leaves of each kind, whose slots count from the first of that kind.
+    leaves: [Vec<usize>; KINDS],
 }
 
 impl Flattener {
@@ -155,13 +158,12 @@ impl Flattener {
             Content::Leaf(range) => {
                 // A leaf holds one kind of primitive: of two kinds make two leaves.
                 let references = &mut references[range];
-                let is_sphere = |reference: &Reference| reference.prim() >= self.triangles;
-                references.sort_by_key(is_sphere);
-                let spheres = references.partition_point(|reference| !is_sphere(reference));
-                let (triangles, spheres) = references.split_at(spheres);
-                for (kind, references) in [triangles, spheres].into_iter().enumerate() {
+                let counts = self.counts;
+                let kind = |reference: &Reference| kind(&counts, reference.prim());
+                references.sort_by_key(kind);
+                for references in references.chunk_by(|a, b| kind(a) == kind(b)) {
                     for leaf in references.chunks(MAX_SLOTS) {
-                        self.leaf(kind, leaf);
+                        self.leaf(kind(&leaf[0]), leaf);
                     }
                 }
             }
@@ -169,9 +171,7 @@ impl Flattener {
     }
 
     fn leaf(&mut self, kind: usize, references: &[Reference]) {
-        if kind == 1 {
-            self.of_spheres.push(self.nodes.len());
-        }
+        self.leaves[kind].push(self.nodes.len());
         let (first, count) = (self.slots[kind], references.len() as u32);
         self.slots[kind] += count;
         self.order.extend(references.iter().map(Reference::prim));

@@ -21,7 +21,8 @@ use crate::bvh::build::{self, Content, Reference};
 use crate::bvh::refit::Refit;
 use crate::geom::Aabb;
 use crate::packet::Boxes;
-use crate::primitives::{Primitives, SphereRecord};
+use crate::primitives::{KINDS, Primitives, SphereRecord, kind};
+use crate::quadric::cone::ConeRecord;
 use crate::tri::{Method, Record, RecordBlock};
 
 /// Up to N boxes by side (SoA), and what is in them.
@@ -75,8 +76,8 @@ impl<V: SimdF32, const N: usize> Boxes<V> for WideNode<N> {
     }
 }
 
-/// What is in a box: another node, or a leaf of some slots. A **slot** is a block of triangles or a
-/// sphere; those of spheres follow those of blocks.
+/// What is in a box: another node, or a leaf of some slots. A **slot** is a block of triangles, a
+/// sphere or a cone; those of spheres follow those of blocks, and then come those of cones.
 ///
 /// In the upper 28 bits the node or the first slot, in the lower 4 the number of slots; 0: a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +115,8 @@ pub struct Wide<const N: usize> {
     nodes: Vec<WideNode<N>>,
     blocks: Vec<RecordBlock<N>>,
     spheres: Vec<SphereRecord>,
-    counts: [usize; 2],
+    cones: Vec<ConeRecord>,
+    counts: [usize; KINDS],
     depth: usize,
 }
 
@@ -126,19 +128,23 @@ impl<const N: usize> Wide<N> {
             nodes: Vec::new(),
             blocks: Vec::new(),
             spheres: Vec::with_capacity(primitives.spheres.len()),
+            cones: Vec::with_capacity(primitives.cones.len()),
             counts: primitives.counts(),
             depth: 0,
         };
-        let mut of_spheres = Vec::new();
+        let mut leaves = [const { Vec::new() }; KINDS];
         if let Some(root) = root {
             let references = &mut references;
-            let of_spheres = &mut of_spheres;
-            let mut converter = Converter { primitives, references, of_spheres, wide: &mut wide };
+            let (leaves, wide) = (&mut leaves, &mut wide);
+            let mut converter = Converter { primitives, references, leaves, wide };
             converter.node(root, 1);
         }
-        let blocks = wide.blocks.len() as u32;
-        for (node, lane) in of_spheres {
-            wide.nodes[node].children[lane].0 += blocks << 4;
+        let [_, of_spheres, of_cones] = leaves;
+        let blocks = wide.blocks.len();
+        for (leaves, before) in [(of_spheres, blocks), (of_cones, blocks + wide.spheres.len())] {
+            for (node, lane) in leaves {
+                wide.nodes[node].children[lane].0 += (before as u32) << 4;
+            }
         }
         wide
     }
@@ -149,26 +155,29 @@ impl<const N: usize> Wide<N> {
         &self.nodes
     }
 
-    /// The blocks in slots of a leaf; none if they are of spheres.
+    /// The blocks in slots of a leaf; none if they are of another kind.
     #[inline(always)]
     pub(crate) fn blocks(&self, slots: &Range<usize>) -> &[RecordBlock<N>] {
         self.blocks.get(slots.clone()).unwrap_or_default()
     }
 
-    /// The spheres in slots of a leaf; none if they are of blocks.
+    /// The spheres in slots of a leaf; none if they are of another kind.
     #[inline(always)]
     pub(crate) fn spheres(&self, slots: &Range<usize>) -> &[SphereRecord] {
-        let blocks = self.blocks.len();
-        match slots.start.checked_sub(blocks) {
-            Some(first) => &self.spheres[first..slots.end - blocks],
-            None => &[],
-        }
+        after(self.blocks.len(), &self.spheres, slots)
+    }
+
+    /// The cones in slots of a leaf; none if they are of another kind.
+    #[inline(always)]
+    pub(crate) fn cones(&self, slots: &Range<usize>) -> &[ConeRecord] {
+        after(self.blocks.len() + self.spheres.len(), &self.cones, slots)
     }
 
     /// The primitives in slots of a leaf.
     pub(crate) fn prims(&self, slots: &Range<usize>) -> impl Iterator<Item = u32> {
         let triangles = self.blocks(slots).iter().flat_map(RecordBlock::prims);
-        triangles.chain(self.spheres(slots).iter().map(|sphere| sphere.prim))
+        let spheres = self.spheres(slots).iter().map(|sphere| sphere.prim);
+        triangles.chain(spheres).chain(self.cones(slots).iter().map(|cone| cone.prim))
     }
 
     /// The number of nodes on the longest way from the root down.
@@ -178,17 +187,30 @@ impl<const N: usize> Wide<N> {
 
     /// How many primitives all leaves have together.
     pub(crate) fn references(&self) -> usize {
-        self.blocks.iter().map(|block| block.prims().count()).sum::<usize>() + self.spheres.len()
+        let triangles: usize = self.blocks.iter().map(|block| block.prims().count()).sum();
+        triangles + self.spheres.len() + self.cones.len()
     }
 
     /// The memory of nodes and primitives.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.blocks) + size_of_val(&*self.spheres)
+        size_of_val(&*self.nodes)
+            + size_of_val(&*self.blocks)
+            + size_of_val(&*self.spheres)
+            + size_of_val(&*self.cones)
+    }
+}
+
+/// The records in some slots, if the first is in slot `before` and they are in those.
+#[inline(always)]
+fn after<'a, T>(before: usize, records: &'a [T], slots: &Range<usize>) -> &'a [T] {
+    match slots.start.checked_sub(before) {
+        Some(first) => records.get(first..slots.end - before).unwrap_or_default(),
+        None => &[],
     }
 }
 
 impl<const N: usize> Refit for Wide<N> {
-    fn counts(&self) -> [usize; 2] {
+    fn counts(&self) -> [usize; KINDS] {
         self.counts
     }
 
@@ -199,6 +221,9 @@ impl<const N: usize> Refit for Wide<N> {
         }
         for record in &mut self.spheres {
             *record = sphere(primitives, record.prim);
+        }
+        for record in &mut self.cones {
+            *record = cone(primitives, record.prim);
         }
         // Those below a node come after it.
         for i in (0..self.nodes.len()).rev() {
@@ -229,13 +254,18 @@ fn sphere(primitives: &Primitives, prim: u32) -> SphereRecord {
     SphereRecord { sphere: primitives.spheres[prim as usize - primitives.triangles.len()], prim }
 }
 
+fn cone(primitives: &Primitives, prim: u32) -> ConeRecord {
+    let first = primitives.triangles.len() + primitives.spheres.len();
+    ConeRecord::new(&primitives.cones[prim as usize - first], prim)
+}
+
 /// A layout that grows.
 struct Converter<'a, const N: usize> {
     primitives: &'a Primitives,
     references: &'a mut [Reference],
     wide: &'a mut Wide<N>,
-    /// The nodes and lanes whose slots count from the first sphere's.
-    of_spheres: &'a mut Vec<(usize, usize)>,
+    /// The nodes and lanes of the leaves of each kind, whose slots count from the first of that kind.
+    leaves: &'a mut [Vec<(usize, usize)>; KINDS],
 }
 
 impl<const N: usize> Converter<'_, N> {
@@ -285,26 +315,28 @@ impl<const N: usize> Converter<'_, N> {
             Content::Inner(children) => children.len(),
             Content::Leaf(range) => {
                 let references = &self.references[range.clone()];
-                let spheres = references.iter().filter(|one| self.is_sphere(one)).count();
-                let of_both = spheres > 0 && spheres < references.len();
-                if of_both || references.len() > MAX_SLOTS { 2 } else { 0 }
+                let of_one_kind =
+                    references.windows(2).all(|two| self.kind(&two[0]) == self.kind(&two[1]));
+                if of_one_kind && references.len() <= MAX_SLOTS { 0 } else { 2 }
             }
         }
     }
 
     /// A node's children, or the halves of those if they are more than N, or of a leaf if it is of
-    /// two kinds or too large.
+    /// several kinds or too large.
     fn part(&mut self, node: build::Node) -> Vec<build::Node> {
         match node.content {
             Content::Inner(children) if children.len() > N => halves(children.into_vec()).into(),
             Content::Inner(children) => children.into_vec(),
             Content::Leaf(Range { start, end }) => {
-                let triangles = self.primitives.triangles.len() as u32;
+                let counts = self.primitives.counts();
+                let kind = |one: &Reference| kind(&counts, one.prim());
                 let references = &mut self.references[start..end];
-                references.sort_by_key(|one| one.prim() >= triangles);
-                let first = references.partition_point(|one| one.prim() < triangles);
+                references.sort_by_key(kind);
+                let least = kind(&references[0]);
+                let first = references.partition_point(|one| kind(one) == least);
                 let count = references.len();
-                let first = if first > 0 && first < count { first } else { count / 2 };
+                let first = if first < count { first } else { count / 2 };
                 [start..start + first, start + first..end]
                     .map(|range| {
                         let boxes =
@@ -317,8 +349,8 @@ impl<const N: usize> Converter<'_, N> {
         }
     }
 
-    fn is_sphere(&self, reference: &Reference) -> bool {
-        reference.prim() as usize >= self.primitives.triangles.len()
+    fn kind(&self, reference: &Reference) -> usize {
+        kind(&self.primitives.counts(), reference.prim())
     }
 
     /// Whether all below is triangles, and no more than N.
@@ -335,7 +367,7 @@ impl<const N: usize> Converter<'_, N> {
                 let left = room.checked_sub(range.len());
                 *room = left.unwrap_or_default();
                 let mut references = self.references[range.clone()].iter();
-                left.is_some() && !references.any(|one| self.is_sphere(one))
+                left.is_some() && references.all(|one| self.kind(one) == 0)
             }
         }
     }
@@ -349,20 +381,25 @@ impl<const N: usize> Converter<'_, N> {
         // Of a box that was cut there may be several pieces.
         prims.sort_unstable();
         prims.dedup();
-        let triangle = (prims[0] as usize) < self.primitives.triangles.len();
-        if triangle {
-            let blocks = &mut self.wide.blocks;
+        let kind = kind(&self.primitives.counts(), prims[0]);
+        self.leaves[kind].push(place);
+        let wide = &mut *self.wide;
+        if kind == 0 {
+            let blocks = &mut wide.blocks;
             let first = blocks.len();
             for prims in prims.chunks(N) {
                 let records: Vec<_> = prims.iter().map(|&i| record(self.primitives, i)).collect();
                 blocks.push(RecordBlock::new(&records));
             }
             Child::leaf(first..blocks.len())
+        } else if kind == 1 {
+            let first = wide.spheres.len();
+            wide.spheres.extend(prims.iter().map(|&prim| sphere(self.primitives, prim)));
+            Child::leaf(first..wide.spheres.len())
         } else {
-            self.of_spheres.push(place);
-            let first = self.wide.spheres.len();
-            self.wide.spheres.extend(prims.iter().map(|&prim| sphere(self.primitives, prim)));
-            Child::leaf(first..self.wide.spheres.len())
+            let first = wide.cones.len();
+            wide.cones.extend(prims.iter().map(|&prim| cone(self.primitives, prim)));
+            Child::leaf(first..wide.cones.len())
         }
     }
 }
@@ -389,18 +426,24 @@ mod tests {
 
     use super::*;
     use crate::bvh::{Builder, Sequential};
-    use crate::geom::{Sphere, Triangle};
+    use crate::geom::{Cone, Sphere, Triangle};
     use crate::packet::Packet;
     use crate::{Ray, slab::robust};
 
-    /// Triangles and balls of all sizes.
+    /// Triangles, balls and cones of all sizes.
     fn heap() -> Primitives {
         let at = |i: usize, k: usize| (Vec3::new(0.61, 1.37, 2.71) * (i * k) as f32).map(f32::sin);
         let size = |i: usize| if i.is_multiple_of(7) { 1.0 } else { 0.05 };
         let triangle = |i| [3, 5, 7].map(|k| at(i, 2) + at(i, k) * size(i));
         let triangles = (0..400).map(|i| Triangle { corners: triangle(i) }).collect();
         let sphere = |i| Sphere { center: at(i, 11), radius: 0.2 * size(i) };
-        Primitives { triangles, spheres: (0..40).map(sphere).collect() }
+        let cone = |i| {
+            let (base, apex) = (at(i, 13), at(i, 13) + at(i, 17) * size(i));
+            let [base_radius, apex_radius] = [0.1, 0.2].map(|radius| radius * size(i));
+            Cone { base, base_radius, apex, apex_radius }
+        };
+        let (spheres, cones) = ((0..40).map(sphere).collect(), (1..41).map(cone).collect());
+        Primitives { triangles, spheres, cones }
     }
 
     /// That boxes contain what is in them, and how often each primitive is in a leaf.
@@ -418,9 +461,7 @@ mod tests {
                         assert_eq!(aabb.union(&wide.nodes[below].bounds()), aabb);
                     }
                     Err(slots) => {
-                        let triangles = wide.blocks(&slots).iter().flat_map(RecordBlock::prims);
-                        let spheres = wide.spheres(&slots).iter().map(|sphere| sphere.prim);
-                        for prim in triangles.chain(spheres).map(|prim| prim as usize) {
+                        for prim in wide.prims(&slots).map(|prim| prim as usize) {
                             assert_eq!(aabb.union(&own_boxes[prim]), aabb);
                             found[prim] += 1;
                         }
@@ -444,6 +485,7 @@ mod tests {
             let mut moved = scene.clone();
             moved.triangles.reverse();
             moved.spheres.reverse();
+            moved.cones.reverse();
             let own_boxes: Vec<_> = moved.own_boxes().collect();
             wide.replace(&moved, &own_boxes);
             assert_eq!(looked_through(&wide, &moved), vec![1; scene.len()], "{builder:?}, moved");

@@ -24,7 +24,7 @@ use simd4::{SimdF32, SimdMask};
 use crate::Stats;
 use crate::bvh::layout::{Child, Wide, WideNode};
 use crate::packet::{Frame, Packet, Query, Single};
-use crate::quadric::sphere;
+use crate::quadric::{cone, sphere};
 use crate::slab::{BoxKernel, Crossing, Robust};
 use crate::tri::knobs::Division;
 use crate::tri::{self, BlockLanes, Watertight};
@@ -85,6 +85,10 @@ pub fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
                 for record in wide.spheres(&slots) {
                     stats.sphere_tests += 1;
                     sphere::intersect(s, record, packet, frame, query);
+                }
+                for record in wide.cones(&slots) {
+                    stats.cone_tests += 1;
+                    cone::intersect(s, record, packet, frame, query);
                 }
                 if query.done(s) {
                     break;
