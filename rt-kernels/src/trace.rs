@@ -21,7 +21,7 @@ pub enum PacketSize {
     Single,
     /// Four rays.
     Four,
-    /// Eight rays.
+    /// Eight rays; four on a level without registers.
     Eight,
 }
 
@@ -48,8 +48,15 @@ impl Exec {
         Exec { level, packet: PacketSize::Native }
     }
 
-    /// The nearest to it of what there is code for, where it is not for all: single rays, and
-    /// registers of levels that have some.
+    /// The nearest to it of what there is code for: where no register holds a packet, eight rays
+    /// gain nothing on four.
+    pub(crate) fn compiled(self) -> Exec {
+        let emulated = matches!(self.level, Level::Scalar(_)) && self.packet == PacketSize::Eight;
+        Exec { packet: if emulated { PacketSize::Four } else { self.packet }, ..self }
+    }
+
+    /// The nearest to it where there is code for the fewest: single rays, and registers of levels
+    /// that have some.
     fn limited(self) -> Exec {
         let single = self.packet == PacketSize::Single || matches!(self.level, Level::Scalar(_));
         let packet = if single { PacketSize::Single } else { PacketSize::Native };
@@ -108,7 +115,7 @@ macro_rules! accelerator {
 
             fn exec(&self, asked: Exec) -> Exec {
                 with_kernel!(Traverse::method(self), K => match any_packet::<Self, K>() {
-                    true => asked,
+                    true => asked.compiled(),
                     false => asked.limited(),
                 })
             }
@@ -265,7 +272,7 @@ fn four<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) 
 
 #[inline(always)]
 fn eight<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) {
-    if const { B::ANY_PACKET || is_register::<S>(8) } {
+    if const { B::ANY_PACKET && !S::EMULATED || is_register::<S>(8) } {
         packets::<S::f32x8>(s, rays, batch, stats);
     }
 }

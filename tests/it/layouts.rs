@@ -106,10 +106,17 @@ fn a_choice_comes_to_what_there_is() {
         }
         assert_eq!(bvh.plan(), plan);
         for level in Level::available() {
-            let asked = Exec { level, packet: PacketSize::Four };
-            let want = if WIDE.contains(&layout) { PacketSize::Single } else { asked.packet };
-            let exec = bvh.exec(asked);
-            assert_eq!((exec.level, exec.packet), (level, want), "{plan:?}");
+            let eight = match level {
+                Level::Scalar(_) => PacketSize::Four,
+                _ => PacketSize::Eight,
+            };
+            for (packet, lanes) in
+                [(PacketSize::Four, PacketSize::Four), (PacketSize::Eight, eight)]
+            {
+                let want = if WIDE.contains(&layout) { PacketSize::Single } else { lanes };
+                let exec = bvh.exec(Exec { level, packet });
+                assert_eq!((exec.level, exec.packet), (level, want), "{plan:?}");
+            }
         }
     }
 }

@@ -32,7 +32,7 @@ impl Accelerator for KdTree {
     }
 
     fn exec(&self, asked: Exec) -> Exec {
-        asked
+        asked.compiled()
     }
 
     fn bytes(&self) -> usize {
@@ -51,6 +51,7 @@ struct Batch<'a> {
 impl KdTree {
     fn run(&self, exec: Exec, batch: &mut Batch<'_>) {
         batch.hits.resize(batch.rays.len());
+        let exec = exec.compiled();
         match exec.packet {
             PacketSize::Single => {
                 let Batch { rays, any, hits, stats } = batch;
@@ -103,7 +104,9 @@ fn four<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>) {
 
 #[inline(always)]
 fn eight<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>) {
-    packets::<S::f32x8>(s, tree, batch);
+    if const { !S::EMULATED } {
+        packets::<S::f32x8>(s, tree, batch);
+    }
 }
 
 #[inline(always)]
