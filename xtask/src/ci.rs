@@ -4,7 +4,7 @@ use crate::cross::cargo;
 use crate::matrix::{TARGETS, Target, Tests, Tier};
 use crate::programs::Programs;
 use crate::report::{Done, Report};
-use crate::{asm, fuzz, setup, tidy};
+use crate::{asm, fuzz, peers, setup, tidy};
 use xshell::{Cmd, Shell, cmd};
 
 /// The flags of `ci`.
@@ -37,7 +37,7 @@ type Check = (&'static str, fn(&Shell, Options) -> Done);
 
 /// What is checked, in this order: the first [`TIDY`] take seconds, the first [`QUICK`] are for the
 /// inner loop, the first [`EVERY_RUN`] for every run.
-const CHECKS: [Check; 8] = [
+const CHECKS: [Check; 9] = [
     ("format", format),
     ("rooms", rooms),
     ("arrows", arrows),
@@ -46,6 +46,7 @@ const CHECKS: [Check; 8] = [
     ("licences", licences),
     ("fuzz targets", fuzz),
     ("benches", benches),
+    ("peers", peers),
 ];
 const TIDY: usize = 3;
 const QUICK: usize = 4;
@@ -236,6 +237,11 @@ fn benches(sh: &Shell, _: Options) -> Done {
     let benches =
         cmd!(sh, "cargo test --quiet --locked --workspace --bench levels --bench kernels");
     succeeds(benches.args(plain).ignore_stdout())
+}
+
+/// The tests of the comparison, without what it is compared with unless that is installed.
+fn peers(sh: &Shell, _: Options) -> Done {
+    succeeds(peers::cargo(sh, "test", "peers"))
 }
 
 /// Passed if the command succeeds; what it prints passes through.

@@ -7,7 +7,7 @@
 
 use std::env::consts::EXE_SUFFIX;
 use std::path::PathBuf;
-use xshell::{Shell, cmd};
+use xshell::{Cmd, Shell, cmd};
 
 /// Builds it and hands it the arguments.
 pub(crate) fn peers(sh: &Shell, args: &[String]) -> Result<(), String> {
@@ -22,17 +22,20 @@ pub(crate) fn peers(sh: &Shell, args: &[String]) -> Result<(), String> {
 
 /// Builds the package; the program.
 fn build(sh: &Shell, folder: &str, features: &[&str], flags: &str) -> Result<PathBuf, String> {
+    let build = cargo(sh, "build", folder).arg("--release").args(features).env("RUSTFLAGS", flags);
+    build.quiet().run().map_err(|error| error.to_string())?;
+    let program = format!("release/rt-peers{EXE_SUFFIX}");
+    Ok(sh.current_dir().join("target").join(folder).join(program))
+}
+
+/// A command of cargo's for the package, which builds in a folder of that name.
+pub(crate) fn cargo<'a>(sh: &'a Shell, command: &str, folder: &str) -> Cmd<'a> {
     let target_dir = sh.current_dir().join("target").join(folder);
     let manifest = "xtask/peers/Cargo.toml";
-    cmd!(sh, "cargo build --quiet --locked --release --manifest-path {manifest}")
-        .args(features)
-        .arg("--target-dir")
-        .arg(&target_dir)
-        .env("RUSTFLAGS", flags)
-        .quiet()
-        .run()
-        .map_err(|error| error.to_string())?;
-    Ok(target_dir.join("release").join(format!("rt-peers{EXE_SUFFIX}")))
+    cmd!(
+        sh,
+        "cargo {command} --quiet --locked --manifest-path {manifest} --target-dir {target_dir}"
+    )
 }
 
 /// Whether other crates are to take part: they do unless other levels are named, or help is asked for.

@@ -39,6 +39,10 @@ pub(crate) struct Args {
     /// Builds and leaks too, where scenes, instructions, rays or sizes are chosen
     #[arg(long)]
     all: bool,
+    /// Hierarchies with spatial splits on both sides, which take longer to build, instead of the
+    /// default ones
+    #[arg(long)]
+    pub(crate) spatial: bool,
     /// Show only the default of ours and the fastest way of each peer
     #[arg(long)]
     pub(crate) brief: bool,
@@ -72,10 +76,15 @@ fn kind(name: &str) -> Result<Kind, String> {
 }
 
 impl Args {
-    pub(crate) fn scenes(&self) -> Vec<String> {
-        let named = if self.quick { &mesh::QUICK[..] } else { &mesh::ALL };
-        let named = || named.iter().map(|&name| name.to_owned()).collect();
-        self.scenes.clone().unwrap_or_else(named)
+    /// The scenes, and whether there is one that may be left out: it is not asked for by name.
+    pub(crate) fn scenes(&self) -> (Vec<String>, bool) {
+        match &self.scenes {
+            Some(scenes) => (scenes.clone(), false),
+            None => {
+                let named = if self.quick { &mesh::QUICK[..] } else { &mesh::ALL };
+                (named.iter().map(|&name| name.to_owned()).collect(), true)
+            }
+        }
     }
 
     pub(crate) fn isa(&self) -> Vec<Isa> {
@@ -119,7 +128,7 @@ mod tests {
     #[test]
     fn all_is_measured_unless_something_is_chosen() {
         let args = parse(&[]);
-        assert_eq!((args.scenes().len(), args.isa().len(), args.rounds()), (6, 4, 7));
+        assert_eq!((args.scenes().0.len(), args.isa().len(), args.rounds()), (6, 4, 7));
         assert!(args.everything() && parse(&["--quick"]).everything());
         let args = parse(&["--isa", "sse4,avx2", "--rays", "shadow", "--size", "512"]);
         assert_eq!((args.isa(), args.rays()), (vec![Isa::Sse4, Isa::Avx2], vec![Kind::Shadow]));
@@ -129,7 +138,7 @@ mod tests {
     #[test]
     fn quick_is_less() {
         let (args, quick) = (parse(&[]), parse(&["--quick"]));
-        assert!(quick.rounds() < args.rounds() && quick.scenes().len() < args.scenes().len());
+        assert!(quick.rounds() < args.rounds() && quick.scenes().0.len() < args.scenes().0.len());
     }
 
     #[test]

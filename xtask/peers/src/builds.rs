@@ -34,16 +34,21 @@ impl Join for Pool {
     }
 }
 
-/// Lets our default builder and Embree's take turns, at the best level of this CPU.
-pub(crate) fn measure(mesh: &Mesh, embree: Embree, rounds: usize) -> Result<Vec<Build>, String> {
+/// Lets our builder and Embree's take turns, at the best level of this CPU.
+pub(crate) fn measure(
+    mesh: &Mesh,
+    embree: Embree,
+    plan: Plan,
+    rounds: usize,
+) -> Result<Vec<Build>, String> {
     const THREADS: [usize; 2] = [1, 2];
     let scene = primitives(mesh)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
     let pool = Pool(pool.map_err(|error| error.to_string())?);
     let ours = |threads: usize| -> Result<Took, String> {
         let (built, took) = match threads {
-            1 => took(|| Bvh::build_with(&scene, Plan::default(), &Sequential)),
-            _ => pool.0.install(|| took(|| Bvh::build_with(&scene, Plan::default(), &pool))),
+            1 => took(|| Bvh::build_with(&scene, plan, &Sequential)),
+            _ => pool.0.install(|| took(|| Bvh::build_with(&scene, plan, &pool))),
         };
         built.map(|_| took).map_err(|error| error.to_string())
     };

@@ -44,7 +44,7 @@ pub(crate) fn svg(report: &Report) -> String {
     let width = LEFT + (scenes.len() + 1) as f64 * (GROUP + GAP) + GAP;
     let height = ABOVE + ONE * ROOM + BELOW;
     let (all_wide, all_high) =
-        (width * levels.len().max(1) as f64 + GAP, HEAD + height * kinds.len() as f64);
+        ((width * levels.len() as f64 + GAP).max(560.0), HEAD + height * kinds.len() as f64);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{all_wide}\" height=\"{all_high}\" \
          font-family=\"sans-serif\" font-size=\"12\" fill=\"#222222\">\n\

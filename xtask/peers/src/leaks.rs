@@ -4,8 +4,7 @@ use glam::Vec3;
 use rt_kernels::reference::aim;
 use rt_kernels::reference::mesh::Mesh as Ball;
 use rt_kernels::reference::random::Random;
-use rt_kernels::{Ray, Sequential};
-use rt_scene::View;
+use rt_kernels::{Plan, Ray, Sequential};
 use serde::{Deserialize, Serialize};
 
 use crate::mesh::Mesh;
@@ -49,12 +48,17 @@ pub(crate) const PLACES: [(&str, Vec3, f32); 3] = [
 ];
 
 /// Lets everyone trace that many rays of each family, at each place.
-pub(crate) fn measure(embree: Embree, isa: Isa, rays: usize) -> Result<Vec<Leak>, String> {
+pub(crate) fn measure(
+    embree: Embree,
+    plan: Plan,
+    isa: Isa,
+    rays: usize,
+) -> Result<Vec<Leak>, String> {
     let mut leaks = Vec::new();
     for (place, center, radius) in PLACES {
         let ball = Ball::icosphere(6).map(|vertex| vertex * radius + center);
-        let mesh = as_mesh(&ball);
-        let ours = Ours::build(&peers::primitives(&mesh)?, &Sequential)?;
+        let mesh = Mesh::of(&ball);
+        let ours = Ours::build(&peers::primitives(&mesh)?, plan, &Sequential)?;
         let peers = peers::all(&ours, embree, &mesh, isa)?;
         for family in Family::ALL {
             let rays = aimed(&ball, family, center, 0.9 * radius, rays);
@@ -76,18 +80,6 @@ pub(crate) fn measure(embree: Embree, isa: Isa, rays: usize) -> Result<Vec<Leak>
         }
     }
     Ok(leaks)
-}
-
-/// The ball as a scene. Nobody looks at it.
-fn as_mesh(ball: &Ball) -> Mesh {
-    let (eye, target, up) = (Vec3::ZERO, Vec3::Z, Vec3::Y);
-    Mesh {
-        name: "ball".to_owned(),
-        vertices: ball.vertices.iter().map(Vec3::to_array).collect(),
-        triangles: ball.faces.clone(),
-        view: View { eye, target, up, fov_y: 45.0, size: None },
-        light: Vec3::ZERO,
-    }
 }
 
 /// Rays from within `inside` of the centre.

@@ -39,7 +39,7 @@ fn main() -> ExitCode {
 }
 
 fn run(args: &Args) -> Result<(), String> {
-    let embree = Embree::open(args.embree.as_deref())?;
+    let embree = Embree::open(args.embree.as_deref(), args.spatial)?;
     // Levels that this CPU lacks are left out; native is for the other program, if there is one.
     let (isa, lacking): (Vec<_>, Vec<_>) =
         args.isa().into_iter().partition(|&isa| peers::level(isa).is_ok());
@@ -69,7 +69,7 @@ fn run(args: &Args) -> Result<(), String> {
     }
     show(&report.closing());
     if let Some(path) = &args.json {
-        write(path, &format!("{:#}\n", report.json()))?;
+        write(path, &format!("{:#}\n", report.json(args.spatial)))?;
     }
     if let Some(path) = &args.chart {
         write(path, &chart::svg(&report))?;
@@ -88,10 +88,15 @@ fn measure(
     isa: &[Isa],
     show: &impl Fn(&str),
 ) -> Result<Report, String> {
-    let mut report = Report::default();
-    for name in args.scenes() {
+    let (mut report, plan) = (Report::default(), peers::plan(args.spatial));
+    let (scenes, may_be_missing) = args.scenes();
+    for name in scenes {
+        if may_be_missing && mesh::is_missing(&name) {
+            eprintln!("{name} is left out: it is not in {}", mesh::FOLDER);
+            continue;
+        }
         let mesh = Mesh::open(&name)?;
-        let ours = Ours::build(&peers::primitives(&mesh)?, &Sequential)?;
+        let ours = Ours::build(&peers::primitives(&mesh)?, plan, &Sequential)?;
         let exec = Exec::best().map_err(|error| error.to_string())?;
         let picture = |size| Ok((size, Picture::new(&mesh, ours.default(), exec, size)?));
         let pictures = args.size().into_iter().map(picture).collect::<Result<Vec<_>, String>>()?;
@@ -109,12 +114,12 @@ fn measure(
             }
         }
         if args.everything() && !args.for_parent {
-            report.builds.extend(builds::measure(&mesh, embree, args.rounds())?);
+            report.builds.extend(builds::measure(&mesh, embree, plan, args.rounds())?);
         }
     }
     if let (true, Some(&isa)) = (args.everything(), isa.last()) {
         let rays = if args.quick { 100_000 } else { 1_000_000 };
-        report.leaks = leaks::measure(embree, isa, rays)?;
+        report.leaks = leaks::measure(embree, plan, isa, rays)?;
     }
     Ok(report)
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
+use rt_kernels::reference::mesh::Mesh as Ball;
 use rt_render::fitted_view;
 use rt_scene::{SPD_RESOLUTION, View, tessellate};
 
@@ -16,7 +17,7 @@ pub(crate) const QUICK: [&str; 4] = ["balls", "tree", "bunny", "conference"];
 const COMPUTED: [&str; 3] = ["balls", "rings", "tree"];
 
 /// Where the files are, from the root of the repository.
-const FOLDER: &str = "../shared/scenes/obj";
+pub(crate) const FOLDER: &str = "../shared/scenes/obj";
 
 /// Views of scenes whose files have none, and which are not to be seen from the front.
 const VIEWS: [(&str, View, Vec3); 1] = [(
@@ -46,7 +47,7 @@ impl Mesh {
     pub(crate) fn open(name: &str) -> Result<Mesh, String> {
         let path = match name {
             _ if COMPUTED.contains(&name) => PathBuf::from(format!("spd:{name}")),
-            _ if ALL.contains(&name) => Path::new(FOLDER).join(name).with_extension("obj"),
+            _ if ALL.contains(&name) => file(name),
             _ => PathBuf::from(name),
         };
         let scene = rt_scene::open(&path).and_then(|scene| tessellate(scene, SPD_RESOLUTION));
@@ -67,10 +68,32 @@ impl Mesh {
         Ok(Mesh { name, vertices, triangles, view, light })
     }
 
+    /// A ball about the origin, seen from a distance and lit from above.
+    pub(crate) fn of(ball: &Ball) -> Mesh {
+        let (eye, target, up) = (Vec3::Z * 3.0, Vec3::ZERO, Vec3::Y);
+        Mesh {
+            name: "ball".to_owned(),
+            vertices: ball.vertices.iter().map(Vec3::to_array).collect(),
+            triangles: ball.faces.clone(),
+            view: View { eye, target, up, fov_y: 45.0, size: None },
+            light: Vec3::Y * 5.0,
+        }
+    }
+
     /// The corners of a triangle.
     pub(crate) fn corners(&self, triangle: usize) -> [Vec3; 3] {
         self.triangles[triangle].map(|i| self.vertices[i as usize].into())
     }
+}
+
+/// Where a scene of [`ALL`] is that is a file.
+fn file(name: &str) -> PathBuf {
+    Path::new(FOLDER).join(name).with_extension("obj")
+}
+
+/// Whether a scene of [`ALL`] is a file that is not there.
+pub(crate) fn is_missing(name: &str) -> bool {
+    ALL.contains(&name) && !COMPUTED.contains(&name) && !file(name).exists()
 }
 
 /// A light for scenes without one: over the right shoulder.
@@ -79,4 +102,30 @@ fn beside(view: &View) -> Vec3 {
     let right = view.up.cross(back).normalize_or(Vec3::X);
     let up = back.cross(right).normalize_or(Vec3::Y);
     view.eye + (right + up) * back.length() * 0.5
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_curved_comes_as_triangles() {
+        let mesh = Mesh::open("spd:balls:1").expect("a scene");
+        // Ten spheres and the floor.
+        assert_eq!((&*mesh.name, mesh.triangles.len()), ("balls:1", 10 * 192 + 2));
+        assert!(mesh.triangles.as_flattened().iter().all(|&i| (i as usize) < mesh.vertices.len()));
+    }
+
+    #[test]
+    fn a_scene_without_a_light_is_lit_over_the_right_shoulder() {
+        let (eye, target, up) = (Vec3::Z * 4.0, Vec3::ZERO, Vec3::Y);
+        let light = beside(&View { eye, target, up, fov_y: 45.0, size: None });
+        assert!((light - Vec3::new(2.0, 2.0, 4.0)).length() < 1e-6, "{light}");
+    }
+
+    #[test]
+    fn only_named_files_may_be_missing() {
+        assert!(!is_missing("balls") && !is_missing("nowhere.obj"));
+        assert_eq!(is_missing("bunny"), !Path::new(FOLDER).join("bunny.obj").exists());
+    }
 }

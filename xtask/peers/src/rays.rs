@@ -119,3 +119,62 @@ fn along_curve(size: u32) -> impl Iterator<Item = (u32, u32)> {
     let pixels = (0..side * side).map(move |code| (even(code), even(code >> 1)));
     pixels.filter(move |&(x, y)| x < size && y < size)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::peers::primitives;
+    use rt_kernels::reference::mesh::Mesh as Ball;
+    use rt_kernels::{Bvh, Sequential};
+    use std::collections::HashSet;
+
+    #[test]
+    fn the_curve_goes_through_every_pixel_once_and_tile_by_tile() {
+        for size in [1, 8, 13] {
+            let pixels: Vec<_> = along_curve(size).collect();
+            assert_eq!(pixels.iter().collect::<HashSet<_>>().len(), (size * size) as usize);
+            assert_eq!(pixels.len(), (size * size) as usize);
+        }
+        for (edges, count) in [((2, 2), 4), ((4, 2), 8), ((4, 4), 16), ((8, 8), 64)] {
+            for tile in along_curve(16).collect::<Vec<_>>().chunks(count) {
+                let corner = tile[0];
+                let (x, y) = tile.iter().fold((0, 0), |(x, y), p| {
+                    (x.max(p.0 - corner.0 + 1), y.max(p.1 - corner.1 + 1))
+                });
+                assert_eq!((x, y), edges);
+            }
+        }
+    }
+
+    fn picture() -> Picture {
+        let mesh = Mesh::of(&Ball::icosphere(3));
+        let bvh = Bvh::build(&primitives(&mesh).expect("a mesh"), &Sequential).expect("in range");
+        Picture::new(&mesh, &bvh, Exec::best().expect("a level"), 32).expect("a camera")
+    }
+
+    #[test]
+    fn shadow_rays_are_the_same_segments_from_either_end() {
+        let works = picture().works(Kind::Shadow);
+        let [to, from] = &*works else { panic!("{} works", works.len()) };
+        assert!(to.rays.len() > 100 && to.rays.len() < 32 * 32);
+        for (to, from) in to.rays.iter().zip(&from.rays) {
+            assert_eq!(from.origin, Vec3::Y * 5.0);
+            assert_eq!((to.dir, to.tmax, from.tmax), (-from.dir, 1.0, 1.0));
+            assert!((from.at(1.0) - to.origin).length() < 1e-5);
+            // On the lit half of the ball.
+            assert!(to.origin.y > 0.0 && (to.origin.length() - 1.0).abs() < 0.02);
+        }
+    }
+
+    #[test]
+    fn matt_surfaces_scatter_outward() {
+        let works = picture().works(Kind::Diffuse);
+        let rays = &works[0].rays;
+        let seen = picture().seen.iter().flatten().count();
+        assert_eq!((works.len(), rays.len()), (1, seen));
+        let cosine = |ray: &Ray| ray.dir.dot(ray.origin.normalize());
+        assert!(rays.iter().all(|ray| cosine(ray) > -0.1));
+        let mean = rays.iter().map(cosine).sum::<f32>() / rays.len() as f32;
+        assert!((mean - 2.0 / 3.0).abs() < 0.05, "{mean}");
+    }
+}

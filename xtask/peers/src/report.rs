@@ -85,7 +85,7 @@ impl Report {
         if !self.builds.is_empty() {
             let _ = writeln!(
                 table,
-                "\nBuilds, defaults: processor seconds on one thread, wall seconds on two\n\
+                "\nBuilds: processor seconds on one thread, wall seconds on two\n\
                  {:<11} {:>9} {:<8} {:>7} {:>8} {:>6}",
                 "scene", "triangles", "peer", "threads", "seconds", "× ours"
             );
@@ -218,7 +218,7 @@ impl Report {
     }
 
     /// What scripts read.
-    pub(crate) fn json(&self) -> Value {
+    pub(crate) fn json(&self, spatial: bool) -> Value {
         let rows: Vec<_> = self
             .cells
             .iter()
@@ -233,7 +233,13 @@ impl Report {
                 Some(json!({ "rays": kind, "isa": isa, "size": size, "to_embree": mean }))
             })
             .collect();
-        json!({ "rows": rows, "builds": self.builds, "leaks": self.leaks, "summary": summary })
+        json!({
+            "spatial": spatial,
+            "rows": rows,
+            "builds": self.builds,
+            "leaks": self.leaks,
+            "summary": summary,
+        })
     }
 }
 
@@ -348,7 +354,7 @@ pub(crate) mod tests {
 
     #[test]
     fn scripts_find_their_keys() {
-        let json = report().json();
+        let json = report().json(false);
         for key in ["scene", "rays", "size", "peer", "mode", "isa", "mrays_per_s", "build_s"] {
             assert!(!json["rows"][0][key].is_null(), "{key}");
         }
@@ -361,6 +367,6 @@ pub(crate) mod tests {
     fn a_report_comes_back_from_the_child() {
         let text = serde_json::to_string(&report()).expect("JSON");
         let back: Report = serde_json::from_str(&text).expect("a report");
-        assert_eq!(back.json(), report().json());
+        assert_eq!(back.json(false), report().json(false));
     }
 }

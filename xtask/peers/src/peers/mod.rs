@@ -16,7 +16,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use embree::Embree;
-pub(crate) use ours::{Ours, level, primitives};
+pub(crate) use ours::{Ours, level, plan, primitives};
 
 use crate::clock::Took;
 use crate::mesh::Mesh;
@@ -143,4 +143,58 @@ pub(crate) fn all<'a>(
         peers.push(parry::build(mesh)?);
     }
     Ok(peers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::Differences;
+    use crate::rays::Kind;
+    use rt_kernels::reference::mesh::Mesh as Ball;
+    use rt_kernels::reference::random::Random;
+    use rt_kernels::{Ray, Sequential};
+
+    /// Rays about a ball, of which some hit; not as many as fill packets.
+    fn work(kind: Kind) -> Work {
+        let mut random = Random::new(5);
+        let mut ray = || {
+            let origin = random.direction() * 3.0;
+            Ray { tmax: 2.5, ..Ray::new(origin, random.in_cube() - origin * 0.5) }
+        };
+        Work { kind, order: "", rays: (0..1003).map(|_| ray()).collect() }
+    }
+
+    #[test]
+    fn all_find_the_same() {
+        let embree = match Embree::open(None, false) {
+            Ok(embree) => embree,
+            Err(reason) => return eprintln!("skipped: {reason}"),
+        };
+        let mesh = Mesh::of(&Ball::icosphere(3));
+        let primitives = primitives(&mesh).expect("a mesh");
+        let ours = Ours::build(&primitives, plan(false), &Sequential).expect("in range");
+        let levels = Isa::ALL.into_iter().filter(|&isa| level(isa).is_ok());
+        for (isa, kind) in levels.flat_map(|isa| [(isa, Kind::Primary), (isa, Kind::Shadow)]) {
+            let peers = all(&ours, embree, &mesh, isa).expect("built");
+            let work = work(kind);
+            let mut first = None;
+            for mut way in peers.iter().flat_map(|peer| peer.ways(&work)) {
+                way.reset();
+                way.run();
+                let hits = way.hits();
+                let expected = first.get_or_insert_with(|| hits.clone());
+                let differences = Differences::between(&work.rays, &hits, expected);
+                assert_eq!(differences, Differences::default(), "{isa} {:?}", way.mode());
+            }
+            let hits = first.expect("ours").iter().flatten().count();
+            assert!((200..800).contains(&hits), "{hits}");
+        }
+    }
+
+    #[test]
+    fn a_library_that_is_not_there_is_missed_in_one_line() {
+        let path = std::path::Path::new("/nowhere/libembree4.so");
+        let wrong = Embree::open(Some(path), false).err().expect("it is nowhere");
+        assert!(wrong.contains("pip install embreex") && !wrong.contains('\n'), "{wrong}");
+    }
 }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use rt_kernels::{
-    Accelerator, Bvh, Exec, Hits, Join, Layout, PacketSize, Plan, Primitives, Rays, Stats,
+    Accelerator, Builder, Bvh, Exec, Hits, Join, Layout, PacketSize, Plan, Primitives, Rays, Stats,
 };
 use simd4::Level;
 
@@ -29,22 +29,32 @@ pub(crate) fn level(isa: Isa) -> Result<Level, String> {
     .map_err(|error| error.to_string())
 }
 
+/// The default, or the same with spatial splits.
+pub(crate) fn plan(spatial: bool) -> Plan {
+    let default = Plan::default();
+    if spatial { Plan { builder: Builder::Spatial, ..default } } else { default }
+}
+
 /// The triangles as the kernels take them.
 pub(crate) fn primitives(mesh: &Mesh) -> Result<Primitives, String> {
     let vertices: Vec<_> = mesh.vertices.iter().map(|&vertex| vertex.into()).collect();
     Primitives::mesh(&vertices, &mesh.triangles).map_err(|error| error.to_string())
 }
 
-/// A hierarchy for each layout, the default first.
+/// A hierarchy for each layout, the plan's first.
 pub(crate) struct Ours(Vec<(Bvh, Built)>);
 
 impl Ours {
     /// Builds them.
-    pub(crate) fn build(primitives: &Primitives, join: &impl Join) -> Result<Ours, String> {
+    pub(crate) fn build(
+        primitives: &Primitives,
+        plan: Plan,
+        join: &impl Join,
+    ) -> Result<Ours, String> {
         let mut layouts = Layout::ALL;
-        layouts.sort_by_key(|&layout| layout != Plan::default().layout);
+        layouts.sort_by_key(|&layout| layout != plan.layout);
         let build = |layout| {
-            let plan = Plan { layout, ..Plan::default() };
+            let plan = Plan { layout, ..plan };
             let (bvh, took) = took(|| Bvh::build_with(primitives, plan, join));
             let bvh = bvh.map_err(|error| error.to_string())?;
             let built = Built { took, bytes: bvh.bytes() };

@@ -463,3 +463,41 @@ impl Drop for Scene {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    fn ray(i: usize) -> Query {
+        let origin = Vec3::new(i as f32, 10.0, 20.0);
+        Query { tmin: 0.5, tmax: 30.0 + i as f32, ..Query::new(origin, Vec3::Y) }
+    }
+
+    #[test]
+    fn a_packet_lies_component_by_component() {
+        let rays: Vec<_> = (0..3).map(ray).collect();
+        let packet = Rays::<Align16, 4>::new(&rays);
+        // The lane without a ray has a copy of the first.
+        assert_eq!(packet.origin[0], [0.0, 1.0, 2.0, 0.0]);
+        assert_eq!((packet.dir[1], packet.tnear), ([1.0; 4], [0.5; 4]));
+        assert_eq!(packet.tfar, [30.0, 31.0, 32.0, 30.0]);
+    }
+
+    #[test]
+    fn what_embree_writes_is_read_and_restored() {
+        let rays: Vec<_> = (0..4).map(ray).collect();
+        let mut closest = RayHits::<Align16, 4>::new(&rays);
+        assert_eq!(closest.hit(1), None);
+        (closest.rays.tfar[1], closest.hits.geom[1], closest.hits.prim[1]) = (2.0, 0, 7);
+        assert_eq!(closest.hit(1), Some((2.0, 7)));
+        closest.reset(&rays);
+        assert_eq!((closest.hit(1), closest.rays.tfar[1]), (None, 31.0));
+
+        let mut any = Rays::<Align16, 4>::new(&rays);
+        any.tfar[2] = f32::NEG_INFINITY;
+        assert_eq!([any.hit(1), any.hit(2)], [None, Some((0.0, 0))]);
+        Record::reset(&mut any, &rays);
+        assert_eq!(any.hit(2), None);
+    }
+}

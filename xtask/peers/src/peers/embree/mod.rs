@@ -20,30 +20,40 @@ const HOW: &str = "get Embree 4 by `pip install embreex`, or Embree 3 by `apt-ge
 
 /// The library, found and loaded.
 #[derive(Clone, Copy)]
-pub(crate) struct Embree(&'static ffi::Library);
+pub(crate) struct Embree {
+    library: &'static ffi::Library,
+    spatial: bool,
+}
 
 impl Embree {
-    /// Loads what `path` names, or what is found in pip's and the system's folders.
+    /// Loads what `path` names, or what is found in pip's and the system's folders; its hierarchies
+    /// are to have spatial splits or not.
     ///
     /// # Errors
     /// One line that says how to get it.
-    pub(crate) fn open(path: Option<&Path>) -> Result<Embree, String> {
-        if let Some(path) = path {
-            let loaded = ffi::Library::open(path).map(Embree);
-            return loaded.map_err(|error| format!("{}: {error}; {HOW}", path.display()));
-        }
+    pub(crate) fn open(path: Option<&Path>, spatial: bool) -> Result<Embree, String> {
+        let loaded = match path {
+            Some(path) => ffi::Library::open(path)
+                .map_err(|error| format!("{}: {error}; {HOW}", path.display())),
+            None => Embree::find(),
+        };
+        loaded.map(|library| Embree { library, spatial })
+    }
+
+    fn find() -> Result<&'static ffi::Library, String> {
         let system = ["libembree4.so.4", "libembree4.so", "libembree3.so.3", "libembree3.so"];
         let candidates = in_wheels().into_iter().chain(system.map(PathBuf::from));
         let mut loaded = candidates.filter_map(|path| ffi::Library::open(&path).ok());
-        loaded.next().map(Embree).ok_or(format!("there is no Embree: {HOW}"))
+        loaded.next().ok_or(format!("there is no Embree: {HOW}"))
     }
 
     /// `embree3` or `embree4`.
     pub(crate) fn name(self) -> &'static str {
-        if self.0.major == 3 { "embree3" } else { "embree4" }
+        if self.library.major == 3 { "embree3" } else { "embree4" }
     }
 
-    /// Builds a hierarchy at that level, by the default builder (medium quality).
+    /// Builds a hierarchy at that level, in medium quality, which is the default, or with spatial
+    /// splits in high quality.
     pub(crate) fn build(
         self,
         mesh: &Mesh,
@@ -57,8 +67,8 @@ impl Embree {
             Isa::Avx512 => Some("avx512"),
             Isa::Native => None,
         };
-        let config = Config { isa, threads, robust, quality: 1 };
-        let scene = ffi::Scene::build(self.0, &config, &mesh.vertices, &mesh.triangles)?;
+        let config = Config { isa, threads, robust, quality: if self.spatial { 2 } else { 1 } };
+        let scene = ffi::Scene::build(self.library, &config, &mesh.vertices, &mesh.triangles)?;
         Ok(Scene { peer: self.name(), robust, scene })
     }
 }
