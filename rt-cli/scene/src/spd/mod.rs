@@ -4,8 +4,16 @@
 //! Applications 7(11), 1987, and the programs published with it.
 
 mod balls;
+mod gears;
+mod jacks;
+mod lattice;
+mod mount;
 mod rings;
+mod shells;
+mod sombrero;
 mod stage;
+mod teapot;
+mod tetra;
 mod tree;
 mod turn;
 
@@ -28,7 +36,19 @@ pub struct Procedure {
 }
 
 /// All scenes, by name.
-pub const PROCEDURES: &[Procedure] = &[balls::PROCEDURE, rings::PROCEDURE, tree::PROCEDURE];
+pub const PROCEDURES: &[Procedure] = &[
+    balls::PROCEDURE,
+    gears::PROCEDURE,
+    jacks::PROCEDURE,
+    lattice::PROCEDURE,
+    mount::PROCEDURE,
+    rings::PROCEDURE,
+    shells::PROCEDURE,
+    sombrero::PROCEDURE,
+    teapot::PROCEDURE,
+    tetra::PROCEDURE,
+    tree::PROCEDURE,
+];
 
 /// Computes the scene of this name.
 pub fn generate(name: &str, size: Option<u32>) -> Result<Scene, Error> {

@@ -43,6 +43,11 @@ impl Stage {
         }
     }
 
+    /// What is seen where there is nothing, if it is not the sky.
+    pub(super) fn background(&mut self, color: [f32; 3]) {
+        self.scene.background = Some(color.into());
+    }
+
     /// What follows has this surface.
     pub(super) fn surface(&mut self, surface: Surface) {
         self.surface = Some(surface);
@@ -76,6 +81,17 @@ impl Stage {
             normal: None,
             material,
         }));
+    }
+
+    /// A triangle whose corners have normals.
+    pub(super) fn patch(&mut self, corners: [(DVec3, DVec3); 3]) {
+        let material = self.material("patch");
+        let Mesh { positions, normals, triangles } = &mut self.scene.mesh;
+        let [position, normal] =
+            [positions.len(), normals.len()].map(|first| [0, 1, 2].map(|nth| first as u32 + nth));
+        positions.extend(corners.map(|(position, _)| position.as_vec3()));
+        normals.extend(corners.map(|(_, normal)| normal.as_vec3()));
+        triangles.push(Triangle { position, normal: Some(normal), material });
     }
 
     /// A horizontal square about the z axis.

@@ -46,8 +46,21 @@ fn cornell_materials() {
 /// The samples have six digits.
 #[test]
 fn procedures_make_what_their_programs_print() {
-    for (name, sizes) in [("balls", [1, 3, 4]), ("rings", [1, 3, 7]), ("tree", [1, 8, 11])] {
-        for size in sizes {
+    let samples: [(&str, &[u32]); 11] = [
+        ("balls", &[1, 3, 4]),
+        ("gears", &[1, 2, 4]),
+        ("jacks", &[1, 3, 4]),
+        ("lattice", &[1, 5, 12]),
+        ("mount", &[1, 4, 6]),
+        ("rings", &[1, 3, 7]),
+        ("shells", &[1, 5]),
+        ("sombrero", &[1]),
+        ("teapot", &[2, 6, 12]),
+        ("tetra", &[1, 3, 6]),
+        ("tree", &[1, 8, 11]),
+    ];
+    for (name, sizes) in samples {
+        for &size in sizes {
             let Some(path) = sample(&format!("spd/{name}_s{size}.nff")) else { continue };
             let expected = nff::read(&path).unwrap();
             let scene = spd::generate(name, Some(size)).unwrap();
