@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3};
 
+use crate::diag::plural;
+
 /// Everything a renderer needs to know of a scene. Coordinates are in world space, right-handed,
 /// in the units of the file.
 #[derive(Clone, Debug, Default)]
@@ -46,7 +48,13 @@ impl Scene {
             self.materials.push(Material::default());
         }
         let flat = self.mesh.triangles.iter().filter(|triangle| self.mesh.area(triangle) == 0.0);
-        match flat.count() {
+        let flat = flat.count();
+        let clear = self.materials.iter().filter(|m| m.transmission != Vec3::ZERO).count();
+        if clear > 0 {
+            let many = plural(clear as u64, "transparent material");
+            self.facts.warnings.push(format!("{many}: drawn opaque"));
+        }
+        match flat {
             0 => {}
             1 => self.facts.warnings.push("1 triangle has no area".to_owned()),
             count => {
@@ -137,6 +145,10 @@ pub struct Material {
     pub shininess: f32,
     /// What a mirror-reflected ray contributes. Zero: no ray is sent.
     pub mirror: Vec3,
+    /// What a ray that goes through contributes. Zero: the material is opaque.
+    pub transmission: Vec3,
+    /// The index of refraction: of light within it, by that outside; 1 bends nothing.
+    pub ior: f32,
     /// Light that the surface itself gives off.
     pub emission: Vec3,
 }
@@ -150,6 +162,8 @@ impl Default for Material {
             specular: Vec3::ZERO,
             shininess: 1.0,
             mirror: Vec3::ZERO,
+            transmission: Vec3::ZERO,
+            ior: 1.0,
             emission: Vec3::ZERO,
         }
     }

@@ -4,8 +4,9 @@
 //! `f`, `s`, `c`, `p` and `pp`.
 //!
 //! What the format leaves open is decided thus: surfaces have two sides; highlights and mirror
-//! reflections are grey, both of strength Ks; lights without a colour are white, each of intensity
-//! 1/√n where there are n lights, as the programs of the Standard Procedural Databases have it.
+//! reflections are grey, both of strength Ks, and so is what goes through, of strength T; lights
+//! without a colour are white, each of intensity 1/√n where there are n lights, as the programs of the
+//! Standard Procedural Databases have it.
 
 mod read;
 mod surface;

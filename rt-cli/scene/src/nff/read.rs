@@ -37,7 +37,6 @@ struct Counts {
     without_radius: u64,
     inside_out_cones: u64,
     flat_cones: u64,
-    transparent: u64,
 }
 
 struct Reader<'a> {
@@ -172,7 +171,6 @@ impl<'a> Reader<'a> {
 
     fn surface(&mut self) -> Checked {
         let surface: Surface = self.numbers("f")?;
-        self.counts.transparent += u64::from(surface[6] > 0.0);
         self.surface = Some(surface);
         // A later draft of the format adds an ambient part.
         let next = self.word();
@@ -279,7 +277,6 @@ impl<'a> Reader<'a> {
         let of_negative = "of negative radius, to be seen from inside only: seen from both sides";
         warn(counts.inside_out, "sphere", of_negative);
         warn(counts.inside_out_cones, "cone", of_negative);
-        warn(counts.transparent, "surface", "with transmittance: drawn opaque");
         scene.facts.warnings.extend(self.triangulator.warning());
         scene.finish();
         self.scene

@@ -24,12 +24,15 @@ impl Surfaces {
     }
 }
 
-fn material([r, g, b, kd, ks, shine, ..]: Surface) -> Material {
+/// An index of refraction of zero is what opaque surfaces state.
+fn material([r, g, b, kd, ks, shine, transmittance, ior]: Surface) -> Material {
     Material {
         diffuse: Vec3::new(r, g, b) * kd,
         specular: Vec3::splat(ks),
         shininess: shine,
         mirror: Vec3::splat(ks.max(0.0)),
+        transmission: Vec3::splat(transmittance.max(0.0)),
+        ior: if ior > 0.0 { ior } else { 1.0 },
         ..Material::default()
     }
 }

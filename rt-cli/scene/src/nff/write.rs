@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use glam::Vec3;
 
 use crate::diag::Error;
-use crate::model::{Light, Material, Mesh, Scene, Triangle, View};
+use crate::model::{Light, Mesh, Scene, Triangle, View};
 use crate::spd::white_light;
 use crate::triangulate::Triangulator;
 
@@ -15,8 +15,8 @@ const HITHER: f32 = 0.01;
 /// Writes a scene as NFF. Read back, every coordinate has the same bits; two triangles that a
 /// quadrilateral would give are written as one.
 ///
-/// The format has one grey strength for highlights and mirror reflections, and no emission: what
-/// a material has beyond that is lost.
+/// The format has one grey strength for highlights and mirror reflections, one for what goes through,
+/// and no emission: what a material has beyond that is lost.
 pub fn write(scene: &Scene, out: &mut impl Write) -> Result<(), Error> {
     Writer { out, triangulator: Triangulator::default() }.scene(scene).map_err(Error::Write)
 }
@@ -96,8 +96,11 @@ impl<W: Write> Writer<'_, W> {
         *current = Some(wanted);
         let material = &scene.materials[wanted as usize];
         let (Vec3 { x: r, y: g, z: b }, kd) = split_diffuse(material.diffuse);
-        let ks = grey(material);
-        writeln!(self.out, "f {r} {g} {b} {kd} {ks} {} 0 1", material.shininess)
+        let reflected =
+            if material.mirror == Vec3::ZERO { material.specular } else { material.mirror };
+        let (ks, transmittance) = (grey(reflected), grey(material.transmission));
+        let (shine, ior) = (material.shininess, material.ior);
+        writeln!(self.out, "f {r} {g} {b} {kd} {ks} {shine} {transmittance} {ior}")
     }
 
     /// The corners of the quadrilateral whose triangles come next, if they do.
@@ -146,8 +149,7 @@ fn split_diffuse(diffuse: Vec3) -> (Vec3, f32) {
     good.map_or((diffuse, 1.0), |color| (color, kd))
 }
 
-/// The one strength that stands for highlights and mirror reflections.
-fn grey(material: &Material) -> f32 {
-    let color = if material.mirror == Vec3::ZERO { material.specular } else { material.mirror };
+/// The one strength that stands for a colour.
+fn grey(color: Vec3) -> f32 {
     if color == Vec3::splat(color.x) { color.x } else { color.element_sum() / 3.0 }
 }

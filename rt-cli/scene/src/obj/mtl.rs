@@ -115,6 +115,8 @@ fn convert(name: String, material: &tobj::Material) -> Material {
         specular,
         shininess: material.shininess.unwrap_or(default.shininess),
         mirror: if reflects { specular } else { default.mirror },
+        transmission: Vec3::splat(1.0 - material.dissolve.unwrap_or(1.0).min(1.0)),
+        ior: material.optical_density.filter(|&ior| ior > 0.0).unwrap_or(default.ior),
         emission: color(material.emissive, default.emission),
     }
 }
@@ -125,6 +127,8 @@ struct Cleaner<'a> {
     lexer: Lexer<'a>,
     clean: Vec<u8>,
     names: Vec<Word<'a>>,
+    /// Whether the last of them states `d`.
+    has_dissolve: bool,
     /// The first statement of a texture, and all that it and others name.
     texture: Option<Word<'a>>,
     textures: HashSet<&'a [u8]>,
@@ -138,6 +142,7 @@ impl<'a> Cleaner<'a> {
             lexer: Lexer::new(source.text),
             clean: Vec::new(),
             names: Vec::new(),
+            has_dissolve: false,
             texture: None,
             textures: HashSet::new(),
             warnings: Vec::new(),
@@ -183,11 +188,14 @@ impl<'a> Cleaner<'a> {
                 }
                 self.clean.extend(format!("newmtl {}\n", self.names.len()).bytes());
                 self.names.push(name);
+                self.has_dissolve = false;
                 Ok(())
             }
             _ if self.names.is_empty() => Ok(()),
             b"Kd" | b"Ks" | b"Ke" => self.values(keyword, 3),
-            b"Ns" => self.values(keyword, 1),
+            b"Ns" | b"Ni" => self.values(keyword, 1),
+            b"d" => self.dissolve(keyword),
+            b"Tr" => self.transparency(),
             b"illum" => self.illumination(),
             map if map.starts_with(b"map_") || [&b"bump"[..], b"disp", b"refl"].contains(&map) => {
                 self.texture(keyword);
@@ -222,6 +230,29 @@ impl<'a> Cleaner<'a> {
             self.clean.extend_from_slice(word);
         }
         self.clean.push(b'\n');
+        Ok(())
+    }
+
+    /// Perhaps only at the rim, which is no different here.
+    fn dissolve(&mut self, keyword: Word<'a>) -> Result<(), (usize, String)> {
+        let before = self.lexer.clone();
+        if self.lexer.word().is_none_or(|word| word.text != b"-halo") {
+            self.lexer = before;
+        }
+        self.has_dissolve = true;
+        self.values(keyword, 1)
+    }
+
+    /// The opposite of `d`, which counts if both are stated: some programs confuse the two.
+    fn transparency(&mut self) -> Result<(), (usize, String)> {
+        let Some(word) = self.lexer.word() else {
+            let message = "expected 1 number after 'Tr', found 0".to_owned();
+            return Err((self.lexer.at(), message));
+        };
+        let value = word.number().map_err(|message| (word.at, message))?;
+        if !self.has_dissolve {
+            self.clean.extend(format!("d {}\n", (1.0 - value).clamp(0.0, 1.0)).bytes());
+        }
         Ok(())
     }
 

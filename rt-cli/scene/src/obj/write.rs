@@ -25,7 +25,7 @@ pub fn write(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> Resu
 }
 
 /// Writes a scene's materials as MTL. What reflects does so as much as its highlights: MTL has one
-/// colour for both.
+/// colour for both. What goes through is grey.
 pub fn write_library(scene: &Scene, out: &mut impl Write) -> Result<(), Error> {
     write_materials(&scene.materials, out).map_err(Error::Write)
 }
@@ -70,6 +70,13 @@ fn write_materials(materials: &[Material], out: &mut impl Write) -> io::Result<(
             ("Ke", material.emission),
         ] {
             writeln!(out, "{keyword} {x} {y} {z}")?;
+        }
+        if material.transmission != Vec3::ZERO {
+            let clear = material.transmission.element_sum() / 3.0;
+            writeln!(out, "d {}", 1.0 - clear.min(1.0))?;
+        }
+        if material.ior != 1.0 {
+            writeln!(out, "Ni {}", material.ior)?;
         }
         writeln!(out, "Ns {}\nillum {}", material.shininess, if reflects { 3 } else { 2 })?;
     }

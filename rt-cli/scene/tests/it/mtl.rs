@@ -33,9 +33,12 @@ fn everything_that_is_understood() {
         specular: Vec3::new(0.5, 0.6, 0.7),
         shininess: 10.5,
         mirror: Vec3::new(0.5, 0.6, 0.7),
+        transmission: Vec3::splat(0.5),
+        ior: 1.5,
         emission: Vec3::new(17.0, 12.0, 4.0),
     };
-    assert_eq!(material(format!("\u{FEFF}{text}")), (expected, vec![]));
+    let warning = "1 transparent material: drawn opaque".to_owned();
+    assert_eq!(material(format!("\u{FEFF}{text}")), (expected, vec![warning]));
 }
 
 #[test]
@@ -48,6 +51,26 @@ fn which_models_of_illumination_mirror() {
 }
 
 #[test]
+fn what_is_transparent() {
+    for (lines, transmission) in [
+        ("d 1", 0.0),
+        ("d 0.25", 0.75),
+        ("d -halo 0.25", 0.75),
+        ("d 4", 0.0),
+        ("Tr 0.25", 0.25),
+        ("Tr 7", 1.0),
+        ("Tr -1", 0.0),
+        ("d 1\nTr 1", 0.0),
+        ("Tr 1\nd 1", 0.0),
+        ("d 1\nnewmtl m\nTr 1", 1.0),
+    ] {
+        let (material, _) = material(format!("newmtl m\n{lines}"));
+        assert_eq!(material.transmission, Vec3::splat(transmission), "{lines}");
+    }
+    assert_eq!(material("newmtl m\nNi 0").0.ior, 1.0);
+}
+
+#[test]
 fn broken_lines_are_left_out() {
     for (line, warning) in [
         ("Kd 1 nan 0", "6: expected a finite number, found 'nan'"),
@@ -57,6 +80,11 @@ fn broken_lines_are_left_out() {
         ("Kd spectral x.rfl", "4: expected a number, found 'spectral'"),
         ("Kd 0 0 -1", "8: expected a number of at least 0, found '-1'"),
         ("Ns", "3: expected 1 number after 'Ns', found 0"),
+        ("d", "2: expected 1 number after 'd', found 0"),
+        ("d -halo", "8: expected 1 number after 'd', found 0"),
+        ("Tr", "3: expected 1 number after 'Tr', found 0"),
+        ("Tr full", "4: expected a number, found 'full'"),
+        ("Ni -1", "4: expected a number of at least 0, found '-1'"),
         ("illum many", "7: expected an illumination model of 0 to 10, found 'many'"),
         ("newmtl", "7: expected a name after 'newmtl'"),
     ] {
@@ -177,7 +205,7 @@ fn a_library_is_opened_once() {
 #[test]
 fn materials_written_and_read_back() {
     let library = "newmtl a\nKd 0.1 0.2 0.3\nKs 0.5 0.5 0.5\nNs 7\nKe 1 2 3\nillum 3\n\
-                   newmtl b c\nKd 1 1 1\nKs 0.25 0 0\n";
+                   newmtl b c\nKd 1 1 1\nKs 0.25 0 0\nd 0.25\nNi 1.5\n";
     let text = format!("mtllib m.mtl\nusemtl a\n{FACE}usemtl b c\nf 1 3 2\n");
     let scene = with(text, &[("m.mtl", library.as_bytes())]);
     let (mut obj, mut mtl) = (Vec::new(), Vec::new());

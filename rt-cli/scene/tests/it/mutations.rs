@@ -118,8 +118,9 @@ fn check(result: &Result<Scene, Error>, bytes: usize) {
         assert!(cone.material < materials);
     }
     for m in &scene.materials {
-        let colors = [m.diffuse, m.specular, m.mirror, m.emission];
-        assert!(colors.iter().all(|color| color.is_finite()) && m.shininess.is_finite(), "{m:?}");
+        let colors = [m.diffuse, m.specular, m.mirror, m.transmission, m.emission];
+        assert!(colors.iter().all(|color| color.is_finite()), "{m:?}");
+        assert!(m.shininess.is_finite() && m.ior.is_finite() && m.ior > 0.0, "{m:?}");
     }
     assert!(scene.bounds().is_none_or(|(low, high)| low.is_finite() && high.is_finite()));
 }

@@ -30,6 +30,8 @@ fn everything_that_is_read() {
         diffuse: Vec3::new(0.5, 0.25, 0.125),
         specular: Vec3::splat(0.25),
         mirror: Vec3::splat(0.25),
+        transmission: Vec3::ZERO,
+        ior: 1.0,
         shininess: 10.0,
         emission: Vec3::ZERO,
     };
@@ -88,7 +90,7 @@ fn odd_spheres_and_surfaces() {
     assert_eq!(scene.facts.skipped, [Skipped { what, why, count: 2 }]);
     let expected = [
         "t.nff: 1 sphere of negative radius, to be seen from inside only: seen from both sides",
-        "t.nff: 1 surface with transmittance: drawn opaque",
+        "1 transparent material: drawn opaque",
     ];
     assert_eq!(scene.facts.warnings, expected);
 }
@@ -230,15 +232,19 @@ proptest! {
     fn written_colors_have_the_same_bits(
         diffuse in color(),
         grey in 0.0..1.0_f32,
+        clear in 0.0..1.0_f32,
+        ior in 0.5..3.0_f32,
         shininess in 0.0..1e6_f32,
         lights in prop::collection::vec(color(), 0..4),
     ) {
         let mut scene = nff("s 0.1 0.2 0.3 0.4").unwrap();
         let grey = Vec3::splat(grey);
         let name = String::new();
+        let (specular, mirror, transmission) = (grey, grey, Vec3::splat(clear));
         let emission = Vec3::ZERO;
-        scene.materials =
-            vec![Material { name, diffuse, specular: grey, mirror: grey, shininess, emission }];
+        scene.materials = vec![Material {
+            name, diffuse, specular, mirror, shininess, transmission, ior, emission
+        }];
         scene.lights =
             lights.into_iter().map(|color| Light { position: color, color }).collect();
         scene.background = Some(diffuse);

@@ -90,10 +90,10 @@ fn numbers(scene: &Scene) -> Vec<Vec<f32>> {
     let spheres = scene.spheres.iter().flat_map(|s| [s.center, Vec3::splat(s.radius)]);
     let radii = |c: &Cone| Vec3::new(c.base_radius, c.apex_radius, 0.0);
     let cones = scene.cones.iter().flat_map(|cone| [cone.base, cone.apex, radii(cone)]);
-    let materials = scene
-        .materials
-        .iter()
-        .flat_map(|m| [m.diffuse, m.specular, m.mirror, m.emission, Vec3::splat(m.shininess)]);
+    let materials = scene.materials.iter().flat_map(|m| {
+        let numbers = Vec3::new(m.shininess, m.ior, 0.0);
+        [m.diffuse, m.specular, m.mirror, m.transmission, m.emission, numbers]
+    });
     let lights = scene.lights.iter().flat_map(|light| [light.position, light.color]);
     let view = [view.eye, view.target, view.up, Vec3::splat(view.fov_y), scene.background.unwrap()];
     [
