@@ -4,6 +4,7 @@
 
 mod accuracy;
 mod bad_input;
+mod bad_nff;
 mod bench;
 mod chart;
 mod flags;

@@ -67,7 +67,7 @@ fn surface(x: u32, y: u32, z: u32) -> [f32; 8] {
         part(z * 3 + x * 2 + y + 1, 2.0),
     );
     let [r, g, b] = (color / color.max_element()).as_vec3().to_array();
-    if (x * 4 + y * 2 + z) % 5 == 0 {
+    if (x * 4 + y * 2 + z).is_multiple_of(5) {
         [r, g, b, 0.2, 0.0, 100_000.0, 0.8, 1.1]
     } else {
         [r, g, b, 1.0, 0.0, 100_000.0, 0.0, 0.0]

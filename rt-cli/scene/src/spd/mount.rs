@@ -4,7 +4,7 @@
 //! The hash is known to be poor, and repeats itself; all published pictures have it. Source: Fournier,
 //! Fussell, Carpenter, "Computer Rendering of Stochastic Models", 1982.
 
-use std::f64::consts::{LN_2, PI};
+use std::f64::consts::{LN_2, PI, SQRT_2};
 
 use glam::DVec3;
 
@@ -78,7 +78,7 @@ impl Ground {
         let right = middle(x + width, y + half, (b + c) / 2.0, rise);
         let above = middle(x + half, y + width, (c + d) / 2.0, rise);
         let left = middle(x, y + half, (d + a) / 2.0, rise);
-        let inside = middle(x + half, y + half, (a + b + c + d) / 4.0, 1.4142136 * rise);
+        let inside = middle(x + half, y + half, (a + b + c + d) / 4.0, SQRT_2 * rise);
         self.grow([x, y], half, [a, below, inside, left]);
         self.grow([x + half, y], half, [below, b, right, inside]);
         self.grow([x + half, y + half], half, [inside, right, c, above]);
