@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::support::{BUILDERS, LAYOUTS, Scratch, keys, levels};
 
-const KEYS: [&str; 27] = [
+const KEYS: [&str; 28] = [
     "scene",
     "output",
     "width",
