@@ -27,7 +27,7 @@ fn bad() -> Vec<(&'static str, Vec<u8>, String)> {
         ("wide_sphere", b"s 0 0 3e38 3e38\n".into(), say("1:1: the sphere reaches beyond")),
         ("wide_cone", b"c 0 0 0 3e38 3e38 1 1 1\n".into(), say("1:1: the cone reaches beyond")),
         ("two_corners", b"p 2\n0 0 0\n1 1 1\n".into(), say("1:3: expected 3 or more vertices")),
-        ("no_count", b"p\n".into(), say("2:1: expected 3 or more vertices")),
+        ("no_count", b"p\n".into(), say("1:2: expected 3 or more vertices")),
         ("negative_count", b"pp -3\n".into(), say("1:4: expected 3 or more vertices")),
         ("claims_much", b"p 4000000000\n0 0 0\n".into(), say("2:6: expected 3 numbers after 'p'")),
         (
