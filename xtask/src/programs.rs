@@ -41,6 +41,8 @@ impl Programs {
             // Nobody edits and builds again for these in a loop, or debugs them: in one go and
             // without the places of lines it is quicker.
             command = command.env("CARGO_INCREMENTAL", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
+            let flags = format!("{} --cfg without_benches", target.build.rustflags);
+            command = command.env("RUSTFLAGS", flags.trim_start());
         }
         if target.of_workspace() && target.build.triple.is_some() {
             // A tool of the host.
