@@ -170,7 +170,7 @@ pub(crate) const CORE: [&str; 3] = ["simd4", "rt-kernels", "rt-tests"];
 /// The tests of [`CORE`] that take an emulator a minute and more.
 pub(crate) const LONG: [&str; 7] = [
     "build::pathological_scenes",
-    "builders::threads_do_not_change",
+    "threads_do_not_change",
     "pictures::every_way",
     "precision::pictures_are_within",
     "watertight::ball",
