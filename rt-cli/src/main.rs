@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         args::Command::Bench(args) => cmd::bench::run(args),
         args::Command::Accuracy(args) => cmd::accuracy::run(args),
         args::Command::Chart(args) => cmd::chart::run(args),
+        args::Command::Paper(args) => cmd::paper::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

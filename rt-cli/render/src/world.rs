@@ -195,7 +195,8 @@ pub(crate) fn corners(scene: &Scene, triangle: &rt_scene::Triangle) -> [Vec3; 3]
     triangle.position.map(|i| scene.mesh.positions[i as usize])
 }
 
-fn primitives(scene: &Scene) -> Primitives {
+/// What the kernels trace of a scene.
+pub(crate) fn primitives(scene: &Scene) -> Primitives {
     let flat = |triangle| Triangle { corners: corners(scene, triangle) };
     let cone = |cone: &rt_scene::Cone| Cone {
         base: cone.base,

@@ -6,6 +6,7 @@
 mod front;
 mod legend;
 mod levels;
+mod lines;
 mod marker;
 mod model;
 mod page;
@@ -14,6 +15,7 @@ mod rows;
 mod scale;
 mod style;
 
+pub(crate) use lines::{Line, Lines};
 pub(crate) use model::Model;
 pub(crate) use page::svg;
 pub(crate) use rows::Measured;

@@ -5,4 +5,5 @@ pub(crate) mod bench;
 pub(crate) mod chart;
 pub(crate) mod generate;
 pub(crate) mod info;
+pub(crate) mod paper;
 pub(crate) mod render;

@@ -20,6 +20,8 @@ fn every_way_to_work_gives_the_same_bytes() {
             }
             ways.extend(BUILDERS.map(|builder| vec!["--builder", builder]));
             ways.extend(LAYOUTS.map(|layout| vec!["--layout", layout]));
+            let cells = ["sweep", "binned", "median"];
+            ways.extend(cells.map(|builder| vec!["--accel", "kd", "--kd-builder", builder]));
             if integrator == "whitted" {
                 for level in &levels {
                     ways.extend(["1", "4", "8"].map(|size| vec!["--isa", level, "--packet", size]));

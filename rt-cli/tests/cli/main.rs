@@ -13,6 +13,7 @@ mod info;
 mod machine;
 #[cfg(unix)]
 mod output;
+mod paper;
 mod picture;
 mod precision;
 mod stats;

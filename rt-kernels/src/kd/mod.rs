@@ -58,6 +58,7 @@ mod build;
 pub mod layout;
 mod run;
 pub mod traverse;
+mod visits;
 
 pub use build::{GROWTH, KdBuilder};
 

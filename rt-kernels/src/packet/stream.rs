@@ -91,7 +91,7 @@ pub struct Hits {
 
 impl Hits {
     /// The number of a primitive that stands for none.
-    pub(super) const NONE: u32 = u32::MAX;
+    pub(crate) const NONE: u32 = u32::MAX;
 
     /// No hits.
     pub fn new() -> Self {

@@ -9,6 +9,7 @@
 //! Rays that run in a triangle's plane, triangles without area and numbers that are not finite hit
 //! nothing, with any kernel, but for what the file of a kernel says.
 
+mod across;
 mod catalogue;
 pub mod knobs;
 pub(crate) mod method;
@@ -21,6 +22,7 @@ mod sweep;
 mod wald;
 mod watertight;
 
+pub use across::Across;
 pub use catalogue::{TriangleTest, catalogue};
 pub use method::Method;
 pub(crate) use method::with_kernel;

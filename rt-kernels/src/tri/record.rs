@@ -43,6 +43,25 @@ impl Record {
         self.rows[0].word
     }
 
+    /// The same with rows for columns.
+    pub(super) fn transposed(&self) -> Record {
+        let [a, b, c] = self.rows.map(|row| row.numbers);
+        let column = |k: usize| [a[k], b[k], c[k]];
+        Record::new([column(0), column(1), column(2)], self.number(), self.rows[1].word)
+    }
+
+    /// The axis.
+    #[inline(always)]
+    pub(super) fn axis(&self) -> usize {
+        self.rows[1].word as usize
+    }
+
+    /// A row in one register; the fourth lane is of no account.
+    #[inline(always)]
+    pub(super) fn row<S: Simd>(&self, s: S, k: usize) -> S::f32x4 {
+        block(s, self.rows[k].numbers)
+    }
+
     /// What no ray meets, with any kernel.
     pub fn nothing() -> Record {
         Record::new([[f32::NAN; 3]; 3], 0, 0)

@@ -4,10 +4,12 @@ use glam::Vec3;
 use rt_accuracy::triangles::TriangleFamily;
 use rt_accuracy::{BATCH, Family, Kind, Subject, Way, samples};
 use rt_kernels::geom::Triangle;
-use rt_kernels::{Accelerator, Brute, Exec, Hits, Primitives, Ray, Rays, Stats};
+use rt_kernels::{Accelerator, Brute, Exec, Hits, KdBuilder, KdPlan, KdTree, Primitives, Ray};
+use rt_kernels::{Rays, Sequential, Stats};
 use rt_tests::hash::fnv1a;
 use rt_tests::random::Random;
 use rt_tests::{rays, trace};
+use simd4::Level;
 
 use super::{shown, the_default_keeps_its_promises_everywhere};
 
@@ -62,6 +64,36 @@ fn the_closest_of_many_is_the_same_in_every_shape() {
             }
         }
         assert!((0..batch.len()).any(|i| brute.get(i).is_some()), "nothing is hit");
+    }
+}
+
+/// Cells cut triangles, and rays are tested in the order of cells: in every family the hits are the
+/// bits of brute force, with none lost and no number that is none.
+#[test]
+fn kd_trees_of_every_family_equal_brute_force() {
+    for family in TriangleFamily::all() {
+        let (facts, mut met) = (family.facts(), 0);
+        for i in 0..rays(8) {
+            let batch = family.batch(&facts.setting, i);
+            let scene = Primitives { triangles: batch.triangles, spheres: vec![] };
+            let brute = Brute::build(&scene).expect("in range");
+            let want = trace::closest(&brute, Exec::best().expect("a level"), &batch.rays);
+            met += want.iter().flatten().count();
+            for builder in KdBuilder::ALL {
+                let plan = KdPlan { builder, ..KdPlan::default() };
+                let tree = KdTree::build_with(&scene, plan, &Sequential).expect("in range");
+                for level in Level::available() {
+                    let got = trace::closest(&tree, Exec::at(level), &batch.rays);
+                    for (i, (got, want)) in got.into_iter().zip(&want).enumerate() {
+                        let ray = batch.rays.get(i);
+                        let name = format!("{}, {builder:?}, {level}: {ray:?}", facts.name);
+                        assert_eq!(got.map(trace::bits), want.map(trace::bits), "{name}");
+                        assert!(got.is_none_or(|hit| hit.t.is_finite()), "{name}: {got:?}");
+                    }
+                }
+            }
+        }
+        assert!(met > 0 || facts.kind != Kind::Closed, "{}: nothing is hit", facts.name);
     }
 }
 

@@ -1,13 +1,22 @@
 //! Measuring the kernels: the same rays, once for each way to run them, in interleaved rounds.
 
+mod coherence;
+mod lanes;
+mod random;
+mod raster;
 mod rays;
+mod terrain;
 
-pub use rays::{Batches, diffuse, primary};
+pub use coherence::{MailRow, kd_tree, mailboxes, packet_overhead, two_threads};
+pub use lanes::{TestRow, tests};
+pub use raster::ZBuffer;
+pub use rays::{Batches, diffuse, primary, shadow};
+pub use terrain::terrain;
 
 use std::time::{Duration, Instant};
 
 use rt_kernels::tri::Method;
-use rt_kernels::{Exec, Hits, Stats};
+use rt_kernels::{Exec, Hits, Rays, Stats};
 
 use crate::World;
 
@@ -38,11 +47,11 @@ pub struct Row {
     pub differing: u64,
 }
 
-/// Times the closest hits of some rays on the calling thread, once a round for every way in turn, so
+/// Times the hits of some rays on the calling thread, once a round for every way in turn, so
 /// that a machine that slows down slows down all of them.
 pub fn trace(rays: &Batches, ways: &[Way<'_>], rounds: usize) -> Vec<Row> {
     let batches = &rays.batches;
-    let mut reference = Vec::new();
+    let mut reference: Vec<Answers> = Vec::new();
     let mut rows = Vec::new();
     for &Way { world, exec } in ways {
         let mut row = Row {
@@ -53,28 +62,25 @@ pub fn trace(rays: &Batches, ways: &[Way<'_>], rounds: usize) -> Vec<Row> {
             stats: Stats::default(),
             differing: 0,
         };
-        for (i, rays) in batches.iter().enumerate() {
-            let mut hits = Hits::new();
-            world.accel.closest(exec, rays, &mut hits, &mut row.stats);
-            row.rays += rays.len() as u64;
-            if reference.len() == i {
-                reference.push(hits);
-            } else {
-                let first: &Hits = &reference[i];
-                let differs = |ray: &usize| hits.get(*ray) != first.get(*ray);
-                row.differing += (0..rays.len()).filter(differs).count() as u64;
+        for (i, batch) in batches.iter().enumerate() {
+            let mut answers = Answers::default();
+            answers.ask(world, exec, batch, rays.any, &mut row.stats);
+            row.rays += batch.len() as u64;
+            match reference.get(i) {
+                None => reference.push(answers),
+                Some(first) => row.differing += answers.differing(first),
             }
         }
         rows.push(row);
     }
 
     let mut times = vec![Vec::new(); ways.len()];
-    let mut hits = Hits::new();
+    let mut answers = Answers::default();
     for _ in 0..rounds {
         for (&Way { world, exec }, times) in ways.iter().zip(&mut times) {
             let start = Instant::now();
-            for rays in batches {
-                world.accel.closest(exec, rays, &mut hits, &mut Stats::default());
+            for batch in batches {
+                answers.ask(world, exec, batch, rays.any, &mut Stats::default());
             }
             times.push(start.elapsed());
         }
@@ -84,4 +90,27 @@ pub fn trace(rays: &Batches, ways: &[Way<'_>], rounds: usize) -> Vec<Row> {
         row.time = times[times.len() / 2];
     }
     rows
+}
+
+/// What was asked of some rays: their closest hits, or whether there are any.
+#[derive(Default)]
+struct Answers {
+    hits: Hits,
+    found: Vec<bool>,
+}
+
+impl Answers {
+    fn ask(&mut self, world: &World, exec: Exec, rays: &Rays, any: bool, stats: &mut Stats) {
+        match any {
+            true => world.accel.any(exec, rays, &mut self.found, stats),
+            false => world.accel.closest(exec, rays, &mut self.hits, stats),
+        }
+    }
+
+    /// How many are not the same.
+    fn differing(&self, other: &Answers) -> u64 {
+        let hits = (0..self.hits.len()).filter(|&i| self.hits.get(i) != other.hits.get(i)).count();
+        let found = self.found.iter().zip(&other.found).filter(|(a, b)| a != b).count();
+        (hits + found) as u64
+    }
 }

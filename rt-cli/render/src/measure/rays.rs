@@ -3,6 +3,7 @@
 use glam::Vec3;
 use rt_kernels::{Exec, Hits, Ray, Rays, Stats};
 
+use super::random::Random;
 use crate::exec::{camera, tile};
 use crate::shade::Surface;
 use crate::{Job, RenderError, World};
@@ -12,7 +13,21 @@ use crate::{Job, RenderError, World};
 pub struct Batches {
     /// What they are, in a word.
     pub kind: &'static str,
+    /// Whether it matters only if they hit anything.
+    pub(super) any: bool,
     pub(super) batches: Vec<Rays>,
+}
+
+impl Batches {
+    /// The number of rays.
+    pub fn len(&self) -> usize {
+        self.batches.iter().map(Rays::len).sum()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
 }
 
 /// A picture's rays from the eye: neighbours have much in common.
@@ -26,14 +41,14 @@ pub fn primary(world: &World, job: &Job) -> Result<Batches, RenderError> {
         .into_iter()
         .map(|origin| tile::rays(&camera, &tile::pixels(origin, width, height)).collect())
         .collect();
-    Ok(Batches { kind: "primary", batches })
+    Ok(Batches { kind: "primary", any: false, batches })
 }
 
 /// What light does that falls on a matt surface: from wherever these rays hit one goes on, as likely
 /// in a direction as its cosine to the normal. Neighbours have little in common. They are the same on
 /// every machine.
 pub fn diffuse(world: &World, rays: &Batches, exec: Exec) -> Batches {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let mut hits = Hits::new();
     let mut bounce = |rays: &Rays| {
         world.accel.closest(exec, rays, &mut hits, &mut Stats::default());
@@ -46,31 +61,23 @@ pub fn diffuse(world: &World, rays: &Batches, exec: Exec) -> Batches {
         })
         .collect()
     };
-    Batches { kind: "diffuse", batches: rays.batches.iter().map(&mut bounce).collect() }
+    Batches { kind: "diffuse", any: false, batches: rays.batches.iter().map(&mut bounce).collect() }
 }
 
-/// SplitMix64 (Steele, Lea and Flood 2014).
-struct Random(u64);
-
-impl Random {
-    /// From −1 to 1.
-    fn signed(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1 << 23) as f32 - 1.0
-    }
-
-    /// Any direction, of unit length.
-    fn on_sphere(&mut self) -> Vec3 {
-        loop {
-            let point = Vec3::new(self.signed(), self.signed(), self.signed());
-            if (0.01..=1.0).contains(&point.length_squared()) {
-                return point.normalize();
-            }
-        }
-    }
+/// From wherever these rays hit to a light, in the units of the scene: neighbours end in one point.
+pub fn shadow(world: &World, rays: &Batches, light: Vec3, exec: Exec) -> Batches {
+    let light = light * world.scale;
+    let mut hits = Hits::new();
+    let mut to_light = |rays: &Rays| {
+        world.accel.closest(exec, rays, &mut hits, &mut Stats::default());
+        let hits = (0..rays.len()).filter_map(|i| Some((rays.get(i), hits.get(i)?)));
+        hits.map(|(ray, hit)| {
+            let from = Surface::at(world, &ray, &hit).leave;
+            Ray { tmax: 1.0, ..Ray::new(from, light - from) }
+        })
+        .collect()
+    };
+    Batches { kind: "shadow", any: true, batches: rays.batches.iter().map(&mut to_light).collect() }
 }
 
 #[cfg(test)]
@@ -81,7 +88,7 @@ mod tests {
     /// a side.
     #[test]
     fn directions_are_distributed_by_the_cosine() {
-        let mut random = Random(1);
+        let mut random = Random::new(1);
         let n = 40_000;
         let (mut sum, mut squares) = (Vec3::ZERO, 0.0);
         for _ in 0..n {

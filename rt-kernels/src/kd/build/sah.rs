@@ -10,7 +10,7 @@
 use crate::geom::Aabb;
 
 /// The cost of a node, in tests of a primitive.
-const NODE_COST: f32 = 0.6;
+const NODE_COST: f32 = 1.0;
 
 /// What remains of a split's cost where one side is empty.
 const EMPTY: f32 = 0.8;
