@@ -75,7 +75,7 @@ fn kd_trees_of_every_family_equal_brute_force() {
         let (facts, mut met) = (family.facts(), 0);
         for i in 0..rays(8) {
             let batch = family.batch(&facts.setting, i);
-            let scene = Primitives { triangles: batch.triangles, spheres: vec![] };
+            let scene = Primitives { triangles: batch.triangles, ..Primitives::default() };
             let brute = Brute::build(&scene).expect("in range");
             let want = trace::closest(&brute, Exec::best().expect("a level"), &batch.rays);
             met += want.iter().flatten().count();
