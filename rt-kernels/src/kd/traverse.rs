@@ -56,10 +56,7 @@ pub(super) fn traverse<V: SimdF32, Q: Query<V>>(
     let sight = tree.sight(s, packet);
     let zero = V::splat(s, 0.0);
     let inv = [packet.inv.x, packet.inv.y, packet.inv.z];
-    let negative = inv.map(
-        #[inline(always)]
-        |inv| inv.lt(zero),
-    );
+    let negative = [inv[0].lt(zero), inv[1].lt(zero), inv[2].lt(zero)];
     let mut waiting = packet.active();
     while let Some(lane) = waiting.first() {
         let mut group = waiting;
@@ -98,10 +95,9 @@ fn one_way<V: SimdF32, Q: Query<V>>(
     let mut far = query.limit();
     for axis in 0..3 {
         let sides = tree.bounds.axes[axis];
-        let [first, last] = [sides[signs[axis] & 1], sides[!signs[axis] & 1]].map(
-            #[inline(always)]
-            |side| (V::splat(s, side) - origin[axis]) * inv[axis],
-        );
+        let (first, last) = (sides[signs[axis] & 1], sides[!signs[axis] & 1]);
+        let first = (V::splat(s, first) - origin[axis]) * inv[axis];
+        let last = (V::splat(s, last) - origin[axis]) * inv[axis];
         near = (first * sooner).max(near);
         far = (last * later).min(far);
     }

@@ -125,23 +125,13 @@ impl Test for WaldEquations {
     #[inline(always)]
     fn test<S: Simd>(s: S, record: &Record, ray: &Ray, limit: f32) -> Option<[f32; 3]> {
         let axis = record.axis();
-        let of = [(axis + 1) % 3, (axis + 2) % 3, axis];
-        let [o, d] = [ray.origin.to_array(), ray.dir.to_array()].map(
-            #[inline(always)]
-            |v| {
-                of.map(
-                    #[inline(always)]
-                    |k| v[k % 3],
-                )
-            },
-        );
+        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (o, d) = (ray.origin.to_array(), ray.dir.to_array());
         let [u, v, rest] = [record.row(s, 0), record.row(s, 1), record.row(s, 2)];
-        let [ou, ov, du, dv] = [o[0], o[1], d[0], d[1]].map(
-            #[inline(always)]
-            |x| S::f32x4::splat(s, x),
-        );
+        let (ou, ov) = (S::f32x4::splat(s, o[i]), S::f32x4::splat(s, o[j]));
+        let (du, dv) = (S::f32x4::splat(s, d[i]), S::f32x4::splat(s, d[j]));
         let (along, at) = (u * du + v * dv, u * ou + v * ov);
-        let t = (rest.lane(0) - at.lane(0) - o[2]) / (along.lane(0) + d[2]);
+        let t = (rest.lane(0) - at.lane(0) - o[axis % 3]) / (along.lane(0) + d[axis % 3]);
         if !(ray.tmin <= t && t <= limit) {
             return None;
         }
@@ -158,14 +148,11 @@ impl Test for PluckerEdges {
     #[inline(always)]
     fn test<S: Simd>(s: S, record: &Record, ray: &Ray, limit: f32) -> Option<[f32; 3]> {
         let (o, d) = (ray.origin.to_array(), ray.dir.to_array());
-        let [x, y, z] = [0, 1, 2].map(
-            #[inline(always)]
-            |k| record.row(s, k) - S::f32x4::splat(s, o[k]),
-        );
-        let [dx, dy, dz] = d.map(
-            #[inline(always)]
-            |d| S::f32x4::splat(s, d),
-        );
+        let x = record.row(s, 0) - S::f32x4::splat(s, o[0]);
+        let y = record.row(s, 1) - S::f32x4::splat(s, o[1]);
+        let z = record.row(s, 2) - S::f32x4::splat(s, o[2]);
+        let (dx, dy) = (S::f32x4::splat(s, d[0]), S::f32x4::splat(s, d[1]));
+        let dz = S::f32x4::splat(s, d[2]);
         // From each corner to the next, and their sum.
         let [nx, ny, nz] = [next(x), next(y), next(z)];
         let (ex, ey, ez) = (nx - x, ny - y, nz - z);
