@@ -1,7 +1,7 @@
 //! One answer at every scale.
 
 use glam::Vec3;
-use rt_kernels::geom::Sphere;
+use rt_kernels::geom::{Cone, Sphere};
 use rt_kernels::{Bvh, Exec, Hit, Rays, Sequential};
 use rt_render::{AccelKind, Film, Integrator, Job, Silent, World, fitted_view, render};
 use rt_scene::Scene;
@@ -47,12 +47,15 @@ fn pictures_do_not_depend_on_the_unit_of_length() {
     }
 }
 
-/// The hits of rays from inside a cube of that size around a ball, of which the greatest component
+/// The hits of rays from inside a cube of that size around a ball and a cone, of which the greatest component
 /// of the direction is near 2^`pace`; distances in units that make them the same for all.
 fn hits(size: i32, pace: i32) -> Vec<Option<Hit>> {
     let mesh = Mesh::cube(2).map(|v| v * power(size));
     let mut scene = mesh.primitives();
     scene.spheres.push(Sphere { center: Vec3::ZERO, radius: power(size - 2) });
+    let end = Vec3::new(0.25, -0.5, 0.75) * power(size);
+    let [base_radius, apex_radius] = [power(size - 3), power(size - 5)];
+    scene.cones.push(Cone { base: -end, base_radius, apex: end, apex_radius });
     let bvh = Bvh::build(&scene, &Sequential).expect("in range");
     let mut random = Random::new(41);
     let rays: Rays = (0..rays(4_000))

@@ -2,11 +2,12 @@
 //!
 //! The crate `tobj` parses the numbers and numbers the vertices afresh, in the order of their use;
 //! before it, a reader of our own checks every statement and says where it is wrong. Polygons are
-//! triangulated whatever their shape. Lines, points, free-form surfaces and textures are counted
+//! triangulated whatever their shape. Faces of a smoothing group that state no normals get some. Lines, points, free-form surfaces and textures are counted
 //! and left out. A vertex's weight or colour is ignored.
 
 mod mtl;
 mod reader;
+mod smooth;
 mod write;
 
 use std::collections::HashMap;
@@ -21,6 +22,7 @@ use crate::text::{Source, decode, read_file};
 use crate::triangulate::Triangulator;
 use mtl::Libraries;
 use reader::{Outline, Reader};
+use smooth::Smoothing;
 
 pub use mtl::Loader;
 pub use write::{write, write_library};
@@ -114,7 +116,8 @@ fn build_mesh(scene: &mut Scene, mesh: &tobj::Mesh, outline: &Outline<'_>, mater
     if outline.runs.iter().any(|run| run.normals) {
         scene.mesh.normals = vectors(&mesh.normals);
     }
-    let positions = &scene.mesh.positions;
+    let mut smoothing = Smoothing::default();
+    let (positions, stated_normals) = (&scene.mesh.positions, scene.mesh.normals.len());
     let triangles = &mut scene.mesh.triangles;
     triangles.reserve(mesh.indices.len().saturating_sub(2 * outline.faces));
 
@@ -135,11 +138,16 @@ fn build_mesh(scene: &mut Scene, mesh: &tobj::Mesh, outline: &Outline<'_>, mater
         corners.clear();
         corners.extend(indices.iter().map(|&index| positions[index as usize]));
         let pick = |from: &[u32], triangle: [u32; 3]| triangle.map(|corner| from[corner as usize]);
+        let before = triangles.len();
         triangles.extend(triangulator.polygon(&corners).iter().map(|&triangle| Triangle {
             position: pick(indices, triangle),
             normal: normals.map(|normals| pick(normals, triangle)),
             material,
         }));
+        if let Some(group) = run.smoothing.filter(|_| normals.is_none()) {
+            smoothing.add(group, positions, stated_normals, &mut triangles[before..]);
+        }
     }
+    smoothing.finish(&mut scene.mesh);
     scene.facts.warnings.extend(triangulator.warning());
 }

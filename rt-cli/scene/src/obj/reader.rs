@@ -41,10 +41,9 @@ const NOT_DRAWN: [(&str, &str); 10] = [
 ];
 
 /// Statements that draw nothing by themselves.
-const SILENT: [&str; 27] = [
+const SILENT: [&str; 26] = [
     "o",
     "g",
-    "s",
     "mg",
     "vp",
     "deg",
@@ -71,12 +70,14 @@ const SILENT: [&str; 27] = [
     "csh",
 ];
 
-/// Faces from `first` up to the next run have this material, and do or don't have normals.
+/// Faces from `first` up to the next run have this material, are in this smoothing group, and do or
+/// don't have normals.
 #[derive(Clone, Copy)]
 pub(super) struct Run {
     pub(super) first: usize,
     /// Index into [`Outline::names`].
     pub(super) material: Option<u32>,
+    pub(super) smoothing: Option<u32>,
     pub(super) normals: bool,
 }
 
@@ -104,6 +105,7 @@ pub(super) struct Reader<'a> {
     errors: Vec<Diagnostic>,
     outline: Outline<'a>,
     material: Option<u32>,
+    smoothing: Option<u32>,
     materials: HashMap<&'a [u8], u32>,
     not_drawn: [u64; NOT_DRAWN.len()],
     /// The first unknown statement, and how many there are.
@@ -125,6 +127,7 @@ impl<'a> Reader<'a> {
             errors: Vec::new(),
             outline: Outline::default(),
             material: None,
+            smoothing: None,
             materials: HashMap::new(),
             not_drawn: [0; NOT_DRAWN.len()],
             unknown: None,
@@ -248,9 +251,12 @@ impl<'a> Reader<'a> {
             return Err(self.error(self.lexer.at(), message));
         }
         self.clean.push(b'\n');
-        let run = Run { first: self.outline.faces, material: self.material, normals };
-        let last = self.outline.runs.last();
-        if last.is_none_or(|last| (last.material, last.normals) != (run.material, normals)) {
+        let (material, smoothing) = (self.material, self.smoothing);
+        let run = Run { first: self.outline.faces, material, smoothing, normals };
+        let differs = |last: &Run| {
+            (last.material, last.smoothing, last.normals) != (material, smoothing, normals)
+        };
+        if self.outline.runs.last().is_none_or(differs) {
             self.outline.runs.push(run);
         }
         self.outline.faces += 1;
@@ -309,6 +315,11 @@ impl<'a> Reader<'a> {
     fn other(&mut self, keyword: Word<'a>) {
         let is = |name: &str| name.as_bytes() == keyword.text;
         match keyword.text {
+            // Off is 0, and whatever else is no number.
+            b"s" => {
+                let group = self.lexer.word().and_then(|word| word.parse::<u32>());
+                self.smoothing = group.filter(|&group| group > 0);
+            }
             b"mtllib" => self.outline.libraries.push(self.lexer.rest()),
             b"usemtl" => {
                 let name = self.lexer.rest();

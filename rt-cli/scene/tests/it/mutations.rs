@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use rt_scene::{Error, Scene};
 
 const OBJ: &str = "mtllib a.mtl b.mtl\r\nv 0 0 0\nv 1 0 0 # one\nv 1 1.5e0 -0.25\nv 0 1 0\nv .5 2 0\n\
-    vt 0 0\nvt 1 0\nvn 0 0 1\nusemtl red\ns off\nf 1/1/1 2/2/1 3/1/1\nf -5//1 -4//1 -2//1 \\\n-1//1\n\
+    vt 0 0\nvt 1 0\nvn 0 0 1\nusemtl red\ns 1\nf 1/1/1 2/2/1 3/1/1\nf -5//1 -4//1 -2//1 \\\n-1//1\n\
     g café\nusemtl blue\nf 1 2 3 4 5\nl 1 2\nf 4/1 3/2 1/2\n";
 
 const MTL: &str = "newmtl red\nKd 1 0 0 # red\nKs .5 .5 .5\nNs 12\nillum 3\nKe 1 2 3\n\

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use glam::Vec3;
 use rt_scene::{Scene, Skipped};
 
 use crate::support::{double_area, obj};
@@ -192,4 +193,60 @@ fn spheres_do_not_fit_into_an_obj() {
     let error = rt_scene::obj::write(&scene, None, &mut Vec::new()).unwrap_err();
     let expected = "an OBJ file cannot hold spd:balls:1's 10 spheres: write an NFF";
     assert_eq!(error.to_string(), expected);
+}
+
+/// Two squares at a right angle, and what normal each corner of each triangle has.
+fn folded(first: &str, second: &str) -> Vec<Vec<Option<Vec3>>> {
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 1 1\nv 1 1 1\nvn 1 0 0\n";
+    let scene = obj(format!("{corners}{first}\nf 1 2 3 4\n{second}\n")).unwrap();
+    let normal = |i: u32| scene.mesh.normals[i as usize];
+    let of = |t: &rt_scene::Triangle| match t.normal {
+        Some(normals) => normals.map(|i| Some(normal(i))).to_vec(),
+        None => vec![None; 3],
+    };
+    scene.mesh.triangles.iter().map(of).collect()
+}
+
+#[test]
+fn smoothing_groups_have_normals() {
+    let (front, up) = (Some(Vec3::Z), Some(Vec3::NEG_Y));
+    let slant = Some(Vec3::new(0.0, -1.0, 1.0).normalize());
+    let near = |found: &[Vec<Option<Vec3>>], expected: [[Option<Vec3>; 3]; 4]| {
+        let pairs = found.iter().flatten().zip(expected.iter().flatten());
+        let same = pairs.map(|(a, b)| match (a, b) {
+            (Some(a), Some(b)) => a.abs_diff_eq(*b, 1e-6),
+            _ => a == b,
+        });
+        found.len() == 4 && same.into_iter().all(|same| same)
+    };
+    let wall = "f 4 3 6 5";
+    // The corners that both have lean halfway.
+    let smooth =
+        [[front, front, slant], [front, slant, slant], [slant, slant, up], [slant, up, up]];
+    let apart = [[front; 3], [front; 3], [up; 3], [up; 3]];
+    let flat = [[None; 3]; 4];
+    for (first, second, expected) in [
+        ("s 1", wall.to_owned(), smooth),
+        ("s 7", format!("usemtl other\n{wall}"), smooth),
+        ("s 1", format!("s 2\n{wall}"), apart),
+        ("s 1", format!("s off\n{wall}"), [[front; 3], [front; 3], [None; 3], [None; 3]]),
+        ("s 0", wall.to_owned(), flat),
+        ("s off", wall.to_owned(), flat),
+        ("s", wall.to_owned(), flat),
+        ("g a", wall.to_owned(), flat),
+    ] {
+        let found = folded(first, &second);
+        assert!(near(&found, expected), "{first}, {second}: {found:?}");
+    }
+    // Normals that are stated stay.
+    let x = Some(Vec3::X);
+    let found = folded("s 1", "f 4//1 3//1 6//1 5//1");
+    assert!(near(&found, [[front; 3], [front; 3], [x; 3], [x; 3]]), "{found:?}");
+}
+
+#[test]
+fn faces_that_cancel_have_no_normal_but_are_read() {
+    let scene = obj("v 0 0 0\nv 1 0 0\nv 0 1 0\ns 1\nf 1 2 3\nf 3 2 1\nf 1 1 1\n").unwrap();
+    assert_eq!(scene.mesh.normals, [Vec3::ZERO; 3]);
+    assert!(scene.mesh.triangles.iter().all(|triangle| triangle.normal.is_some()));
 }
