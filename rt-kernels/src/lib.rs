@@ -56,7 +56,9 @@
 //!
 //! Coordinates up to 2^40 in magnitude, and directions whose greatest component is between 2^-20
 //! and 2^20, keep every product of the kernels finite; primitives whose widths, not only lengths, are
-//! greater than 2^-40 keep them from vanishing. A scene outside this range is brought in by an exact power of two before it is built.
+//! greater than 2^-40 keep them from vanishing. Of a [cone](quadric::cone) also the width times the
+//! direction is to be greater than 2^-50, or its hits lose digits. A scene outside this range is brought in
+//! by an exact power of two before it is built.
 
 mod accelerator;
 mod brute;
