@@ -140,7 +140,7 @@ fn main() -> ExitCode {
         Command::Cross(options) => cross::cross(&sh, &options).map(|()| true),
         Command::Asm { bless } => Ok(asm::asm(&sh, bless)),
         Command::Fuzz(options) => fuzz::fuzz(&sh, &options).map(|()| true),
-        Command::Peers(args) => peers::peers(&sh, &args).map(|()| true),
+        Command::Peers(args) => peers::peers(&sh, &args),
         Command::Coverage => coverage::coverage(&sh).map(|()| true),
         Command::Bless => bless(&sh).map(|()| true),
         Command::Help => {

@@ -7,17 +7,19 @@
 
 use std::env::consts::EXE_SUFFIX;
 use std::path::PathBuf;
+use std::process;
 use xshell::{Cmd, Shell, cmd};
 
-/// Builds it and hands it the arguments.
-pub(crate) fn peers(sh: &Shell, args: &[String]) -> Result<(), String> {
+/// Builds it and hands it the arguments; whether it succeeds. If it does not it has said why.
+pub(crate) fn peers(sh: &Shell, args: &[String]) -> Result<bool, String> {
     let program = build(sh, "peers", &[], "")?;
     let mut command = cmd!(sh, "{program}").args(args);
     if wants_native(args) {
         let native = build(sh, "peers-native", &["--features", "crates"], "-Ctarget-cpu=native")?;
         command = command.arg("--native").arg(native);
     }
-    command.quiet().run().map_err(|error| error.to_string())
+    let status = process::Command::from(command).status().map_err(|error| error.to_string())?;
+    Ok(status.success())
 }
 
 /// Builds the package; the program.
