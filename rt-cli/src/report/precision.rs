@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 pub(crate) enum Kernel {
     /// It was asked for, or is the default.
     Asked(Method),
-    /// It is the lightest that stays under so many pixels.
+    /// It is the cheapest that stays under so many pixels.
     Chosen(Choice, f64),
 }
 
@@ -29,7 +29,7 @@ impl Kernel {
             Kernel::Chosen(choice, tolerance) => {
                 let pixels = digits(choice.prediction().pixels);
                 let why = match choice.method {
-                    Method::Watertight => format!("no lighter one stays under {tolerance} px"),
+                    Method::Watertight => format!("no cheaper one stays under {tolerance} px"),
                     _ => format!("off by at most {pixels} px, tolerance {tolerance} px"),
                 };
                 format!("{name} kernel ({why})")
@@ -56,6 +56,7 @@ pub(crate) fn facts_json(facts: &Facts, predictions: &[Prediction]) -> Value {
         "smallest_feature": facts.smallest_feature,
         "ratio": facts.ratio(),
         "worst_aspect": facts.worst_aspect,
+        "boxes_met": facts.boxes_met,
         "degenerate": facts.degenerate,
         "duplicates": facts.duplicates,
         "curved": facts.curved,
@@ -81,6 +82,10 @@ pub(crate) fn facts_lines(
     if let Some(aspect) = facts.worst_aspect {
         lines.push(("slivers", format!("up to {} times as long as high", digits(aspect))));
     }
+    if facts.triangles > 0 {
+        let met = digits(facts.boxes_met);
+        lines.push(("crowding", format!("a line meets the boxes of {met} triangles on average")));
+    }
     for (what, count) in [("degenerate", facts.degenerate), ("duplicates", facts.duplicates)] {
         if count > 0 {
             lines.push((what, super::count(count, "triangle")));
@@ -96,6 +101,9 @@ pub(crate) fn facts_lines(
             Method::Watertight => "keeps the promise: no leaks".to_owned(),
             _ if facts.triangles > errors.most_triangles => {
                 format!("no gain above {} triangles", errors.most_triangles)
+            }
+            _ if facts.boxes_met > errors.most_boxes => {
+                format!("no gain where a line meets over {} boxes", errors.most_boxes)
             }
             _ => "enough for any tolerance above that".to_owned(),
         };

@@ -1,8 +1,9 @@
-//! The lightest triangle test that is good enough.
+//! The cheapest triangle test that is good enough.
 
 use rt_scene::{Scene, View};
 
 use super::band::{Prediction, predict};
+use super::facts::boxes_met;
 use super::table::ERRORS;
 use crate::Method;
 
@@ -11,7 +12,7 @@ use crate::Method;
 pub struct Choice {
     /// The test.
     pub method: Method,
-    /// What each gets wrong, at most, lightest first.
+    /// What each gets wrong, at most, cheapest first.
     pub predictions: [Prediction; ERRORS.len()],
 }
 
@@ -23,13 +24,13 @@ impl Choice {
     }
 }
 
-/// The lightest triangle test that stays under a tolerance, in pixels: the watertight one if no
-/// other does. With a tolerance of 0 none does.
+/// The cheapest triangle test that stays under a tolerance, in pixels: the watertight one if no
+/// other does, or none that does pays in that scene. With a tolerance of 0 none does.
 pub fn choose(scene: &Scene, view: &View, size: (u32, u32), tolerance: f64) -> Choice {
     let predictions = predict(scene, view, size);
-    let triangles = scene.mesh.triangles.len();
+    let (triangles, boxes_met) = (scene.mesh.triangles.len(), boxes_met(scene));
     let good = ERRORS.iter().zip(&predictions).find(|(errors, prediction)| {
-        prediction.pixels < tolerance && triangles <= errors.most_triangles
+        prediction.pixels < tolerance && errors.pays(triangles, boxes_met)
     });
     let method = good.map_or(Method::default(), |(errors, _)| errors.method);
     Choice { method, predictions }

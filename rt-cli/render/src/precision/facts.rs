@@ -1,8 +1,9 @@
 //! What decides the precision that a scene needs.
 
+use glam::DVec3;
 use rt_scene::Scene;
 
-use crate::world::corners;
+use crate::world::{bounds, corners};
 
 /// Facts of a scene, in its own units, that do not depend on who looks at it.
 ///
@@ -24,6 +25,9 @@ pub struct Facts {
     pub smallest_feature: Option<f64>,
     /// The worst sliver: the greatest ratio of a triangle's longest edge to its least height.
     pub worst_aspect: Option<f64>,
+    /// How many boxes of triangles a line through the scene meets on average, in any direction and
+    /// at any place: what cannot be left out by any hierarchy.
+    pub boxes_met: f64,
 }
 
 impl Facts {
@@ -32,6 +36,7 @@ impl Facts {
         let mut facts = Facts {
             triangles: scene.mesh.triangles.len(),
             curved: scene.spheres.len() + scene.cones.len(),
+            boxes_met: boxes_met(scene),
             ..Facts::default()
         };
         let mut keys = Vec::with_capacity(facts.triangles);
@@ -89,6 +94,24 @@ impl Facts {
     }
 }
 
+/// By Crofton: of the lines that meet a convex body, those that meet another within it are as many
+/// as its share of the surface.
+pub(super) fn boxes_met(scene: &Scene) -> f64 {
+    let half_area = |[low, high]: [DVec3; 2]| {
+        let extent = high - low;
+        extent.dot(DVec3::new(extent.y, extent.z, extent.x))
+    };
+    let boxes = scene.mesh.triangles.iter().map(|triangle| {
+        let [a, b, c] = corners(scene, triangle).map(|corner| corner.as_dvec3());
+        half_area([a.min(b).min(c), a.max(b).max(c)])
+    });
+    let boxes: f64 = boxes.sum();
+    let whole = bounds(scene);
+    let whole = half_area([whole.min(), whole.max()].map(|corner| corner.as_dvec3()));
+    // Without a surface nothing is met.
+    if boxes > 0.0 { boxes / whole } else { 0.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,6 +139,8 @@ mod tests {
             largest_coordinate: 8.0,
             smallest_feature: Some(0.25),
             worst_aspect: Some(32.0),
+            // Three of them as large as the whole, and one without an area.
+            boxes_met: 3.0,
         };
         assert_eq!(facts, want);
         assert_eq!(facts.ratio(), Some(32.0));

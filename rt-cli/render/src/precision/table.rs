@@ -30,6 +30,16 @@ pub struct Errors {
     pub slim: bool,
     /// The greatest number of triangles for which the test is worth its memory.
     pub most_triangles: usize,
+    /// The greatest number of [boxes met](super::Facts::boxes_met) for which it is worth its misses.
+    pub most_boxes: f64,
+}
+
+impl Errors {
+    /// Whether the test is faster than the default in a scene of so many triangles, of whose boxes
+    /// a line meets so many.
+    pub fn pays(&self, triangles: usize, boxes_met: f64) -> bool {
+        triangles <= self.most_triangles && boxes_met <= self.most_boxes
+    }
 }
 
 /// The bounds of all methods, lightest first; the last is the default.
@@ -56,7 +66,8 @@ pub const ERRORS: [Errors; 3] = [
         end_on: false,
         depth: 5.0,
         slim: false,
-        most_triangles: 1 << 17,
+        most_triangles: 1 << 14,
+        most_boxes: 30.0,
     },
     Errors {
         method: Method::MollerTrumbore,
@@ -67,6 +78,7 @@ pub const ERRORS: [Errors; 3] = [
         depth: 10.0,
         slim: true,
         most_triangles: usize::MAX,
+        most_boxes: f64::INFINITY,
     },
     Errors {
         method: Method::Watertight,
@@ -77,6 +89,7 @@ pub const ERRORS: [Errors; 3] = [
         depth: 8.0,
         slim: true,
         most_triangles: usize::MAX,
+        most_boxes: f64::INFINITY,
     },
 ];
 

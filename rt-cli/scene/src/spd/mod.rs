@@ -1,13 +1,15 @@
 //! The Standard Procedural Databases: scenes that are computed, in any size.
 //!
 //! Source: Haines, "A Proposal for Standard Graphics Environments", IEEE Computer Graphics and
-//! Applications 7(11), 1987, and the programs published with it.
+//! Applications 7(11), 1987, and the programs published with it. Beside them stand three scenes of
+//! our own that differ in the [`precision`] that they need.
 
 mod balls;
 mod gears;
 mod jacks;
 mod lattice;
 mod mount;
+mod precision;
 mod rings;
 mod shells;
 mod sombrero;
@@ -48,6 +50,9 @@ pub const PROCEDURES: &[Procedure] = &[
     teapot::PROCEDURE,
     tetra::PROCEDURE,
     tree::PROCEDURE,
+    precision::NEAR,
+    precision::FAR,
+    precision::SLIVERS,
 ];
 
 /// Computes the scene of this name.
