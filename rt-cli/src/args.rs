@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Args as Group, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
+use rt_accuracy::Setting;
 use rt_render::{Integrator, Method};
 use rt_scene::{Light, Scene};
 
@@ -152,8 +153,8 @@ pub(crate) struct PrecisionArgs {
     /// The triangle test. Only the watertight one leaks nothing.
     #[arg(long, value_enum, value_name = "NAME", default_value_t, conflicts_with = "tolerance")]
     kernel: KernelArg,
-    /// Take the triangle test of fewest operations that is off by less than this many pixels, as
-    /// far as can be foretold (rt info SCENE tells) [default: none, which is 0].
+    /// Take the cheapest triangle test that is off by less than this many pixels, as far as can be
+    /// foretold (rt info SCENE tells) [default: none, which is 0].
     #[arg(long, value_name = "PX", value_parser = tolerance, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
 }
@@ -251,6 +252,7 @@ pub(crate) struct BenchArgs {
 #[derive(Group)]
 #[command(after_help = "Examples:\n  \
     rt accuracy --quick\n  \
+    rt accuracy --quick --scale 1e-3 --offset 1e4\n  \
     rt accuracy --json accuracy.json && rt chart --from accuracy.json -o chart.svg")]
 pub(crate) struct AccuracyArgs {
     #[command(flatten)]
@@ -267,7 +269,7 @@ pub(crate) struct MeasureArgs {
     /// Fewer rays: some seconds.
     #[arg(long)]
     quick: bool,
-    /// Rays of each family [default: 1000000, or 8192 with --quick].
+    /// Rays of each family [default: 1000000, or 4096 with --quick].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     rays: Option<u32>,
     /// How often everything is timed [default: 21, or 5 with --quick].
@@ -276,6 +278,13 @@ pub(crate) struct MeasureArgs {
     /// Which random numbers to use.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
+    /// The size of meshes and primitives, instead of what each family has. What kernels are known
+    /// to get wrong is not held against them then.
+    #[arg(long, value_name = "X", value_parser = scale)]
+    scale: Option<f32>,
+    /// How far from the origin they are, likewise.
+    #[arg(long, value_name = "X", value_parser = offset)]
+    offset: Option<f32>,
     /// Say nothing but errors.
     #[arg(short, long)]
     pub(crate) quiet: bool,
@@ -284,7 +293,21 @@ pub(crate) struct MeasureArgs {
 impl MeasureArgs {
     /// Rays of each family.
     pub(crate) fn rays(&self) -> usize {
-        self.rays.unwrap_or(if self.quick { 8_192 } else { 1_000_000 }) as usize
+        self.rays.unwrap_or(if self.quick { 4_096 } else { 1_000_000 }) as usize
+    }
+
+    /// What a family is set to, where it is commonly set to that.
+    pub(crate) fn setting(&self, common: Setting) -> Setting {
+        Setting {
+            seed: self.seed,
+            scale: self.scale.unwrap_or(common.scale),
+            offset: self.offset.unwrap_or(common.offset),
+        }
+    }
+
+    /// Whether families are set as they commonly are, but for the random numbers.
+    pub(crate) fn is_common(&self) -> bool {
+        self.scale.is_none() && self.offset.is_none()
     }
 
     /// How often everything is timed.
@@ -304,7 +327,7 @@ impl MeasureArgs {
     rt chart --from triangles.json boxes.json -o accuracy.svg")]
 pub(crate) struct ChartArgs {
     /// The .json files to draw, together; nothing is measured then.
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["quick", "rays", "rounds", "seed"])]
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["quick", "rays", "rounds", "seed", "scale", "offset"])]
     pub(crate) from: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) measure: MeasureArgs,
@@ -450,6 +473,21 @@ fn light(text: &str) -> Result<Light, String> {
     }
 }
 
+/// A size that the kernels make promises for.
+fn scale(text: &str) -> Result<f32, String> {
+    match numbers(text)?[..] {
+        [scale] if (1e-6..=1e6).contains(&scale) => Ok(scale),
+        _ => Err("expected a size from 1e-6 to 1e6".into()),
+    }
+}
+
+fn offset(text: &str) -> Result<f32, String> {
+    match numbers(text)?[..] {
+        [offset] if (0.0..=1e6).contains(&offset) => Ok(offset),
+        _ => Err("expected a distance from 0 to 1e6".into()),
+    }
+}
+
 fn tolerance(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(pixels) if pixels.is_finite() && pixels.is_sign_positive() => Ok(pixels),
@@ -501,6 +539,12 @@ mod tests {
         assert_eq!((tolerance("0"), tolerance("0.5")), (Ok(0.0), Ok(0.5)));
         for bad in ["", "-1", "-0.0", "nan", "inf", "1px", "1,5"] {
             assert!(tolerance(bad).is_err(), "{bad}");
+        }
+        assert_eq!((scale("1e-6"), scale("1e6")), (Ok(1e-6), Ok(1e6)));
+        assert_eq!((offset("0"), offset("1e6")), (Ok(0.0), Ok(1e6)));
+        for bad in ["", "0", "-1", "2e6", "nan", "1,1"] {
+            assert!(scale(bad).is_err(), "{bad}");
+            assert!(bad == "0" || offset(bad).is_err(), "{bad}");
         }
         assert!(angle("0").is_err() && angle("180").is_err() && angle("45").is_ok());
     }

@@ -5,7 +5,6 @@ use glam::Vec3;
 use rt_scene::{Light, Material, Scene, Sphere, Triangle, View};
 
 use crate::mesh::Mesh;
-use crate::random::Random;
 
 /// The nearest multiple of 2^-12.
 fn snap(v: Vec3) -> Vec3 {
@@ -139,36 +138,19 @@ pub fn scaled(mut scene: Scene, factor: f32) -> Scene {
 
 /// A closed mesh with bumps, near the origin: nothing is hard about it.
 pub fn near() -> Scene {
-    let mut random = Random::new(7);
-    let mesh = Mesh::icosphere(3).map(|v| v * (4.0 + 0.2 * random.signed()));
-    of_mesh("near", &mesh)
+    procedural("near")
 }
 
 /// The same, far from the origin.
 pub fn far() -> Scene {
-    let place = Vec3::new(100_000.0, -30_000.0, 200_000.0);
-    let mut scene = near();
-    scene.name = "far".to_owned();
-    scene.mesh.positions.iter_mut().for_each(|v| *v += place);
-    scene
+    procedural("far")
 }
 
 /// A disc of needles, near the origin.
 pub fn slivers() -> Scene {
-    let rim = 20_000;
-    let point = |i: u32| {
-        let (sine, cosine) =
-            (f64::from(i % rim) / f64::from(rim) * std::f64::consts::TAU).sin_cos();
-        Vec3::new(cosine as f32, sine as f32, 0.125)
-    };
-    let vertices = (0..rim).map(point).chain([Vec3::ZERO]).collect();
-    let faces = (0..rim).map(|i| [rim, i, (i + 1) % rim]).collect();
-    of_mesh("slivers", &Mesh { vertices, faces })
+    procedural("slivers")
 }
 
-fn of_mesh(name: &str, mesh: &Mesh) -> Scene {
-    let mut scene =
-        Scene { name: name.to_owned(), materials: vec![matt(0.8, 0.7, 0.6)], ..Scene::default() };
-    add(&mut scene, mesh, 0, None);
-    scene
+fn procedural(name: &str) -> Scene {
+    rt_scene::spd::generate(name, None).expect("it is one of the procedures")
 }

@@ -26,6 +26,9 @@ pub struct Tally {
     /// How far, at most, from an edge a ray was misjudged: in units of 2^-24 of the greatest
     /// coordinate.
     pub band: f64,
+    /// The same, of triangles alone, in units of 2^-24 of the distance from the ray's origin to the
+    /// farthest corner.
+    pub band_of_reach: f64,
     /// Errors of `t`, in units in the last place of the exact value.
     pub t_ulp: Quantiles,
 }
@@ -55,6 +58,7 @@ impl Tally {
                 false_hit |= hit.is_some();
                 false_miss |= hit.is_none();
                 self.band = self.band.max(verdict.band);
+                self.band_of_reach = self.band_of_reach.max(verdict.band_of_reach);
             }
         }
         self.rays += 1;
@@ -80,6 +84,7 @@ impl Tally {
         self.nan_hits += other.nan_hits;
         self.unsure += other.unsure;
         self.band = self.band.max(other.band);
+        self.band_of_reach = self.band_of_reach.max(other.band_of_reach);
         self.t_ulp.merge(&other.t_ulp);
     }
 }
@@ -165,7 +170,7 @@ mod tests {
 
     #[test]
     fn every_count_counts_its_own() {
-        let verdict = |place| Verdict { place, t: 2.0, band: 3.0 };
+        let verdict = |place| Verdict { place, t: 2.0, band: 3.0, band_of_reach: 1.0 };
         let at = |t| Some(Hit { t, prim: 0, u: 0.0, v: 0.0 });
         let hit = at(2.0);
         let count = |tests: &[(Place, Option<Hit>)]| {

@@ -6,9 +6,7 @@ use std::path::Path;
 use rt_accuracy::boxes::BoxFamily;
 use rt_accuracy::quadrics::QuadricFamily;
 use rt_accuracy::triangles::TriangleFamily;
-use rt_accuracy::{
-    Family, Kind, Listed, Row, Setting, Shape, Time, complaints, measure, subjects, worst,
-};
+use rt_accuracy::{Family, Kind, Listed, Row, Shape, Time, complaints, measure, subjects, worst};
 use rt_render::Level;
 use rt_render::precision::{ERRORS, Errors};
 use serde_json::{Value, json};
@@ -58,6 +56,9 @@ impl Measured {
         measured.complaints.extend(beyond(&ERRORS, &triangles));
         measured.add::<BoxFamily>(args, level);
         measured.add::<QuadricFamily>(args, level);
+        if !args.is_common() {
+            measured.complaints.clear();
+        }
         Ok(measured)
     }
 
@@ -70,8 +71,7 @@ impl Measured {
                 let (sort, of) = (F::SORT, F::all().len());
                 ui::say(&format!("{sort} {i}/{of}: {}: {}", facts.name, facts.about));
             }
-            let setting = Setting { seed: args.seed, ..facts.setting };
-            rows.extend(measure(&subjects, family, setting, args.rays()));
+            rows.extend(measure(&subjects, family, args.setting(facts.setting), args.rays()));
         }
         if !args.quiet {
             ui::say(&format!("{}: times", F::SORT));
@@ -160,6 +160,7 @@ fn row_json<F: Family>(row: &Row<F>, time: &Time) -> Value {
             "max": tally.t_ulp.max(),
         },
         "band": tally.band,
+        "band_of_reach": tally.band_of_reach,
         "ns": time.median,
         "ns_least": time.least,
     })

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::support::{Scratch, keys, levels};
 
 const QUICK: [&str; 5] = ["accuracy", "--rays", "64", "--rounds", "1"];
 
-const KEYS: [&str; 25] = [
+const KEYS: [&str; 26] = [
     "suite",
     "kernel",
     "variant",
@@ -32,6 +32,7 @@ const KEYS: [&str; 25] = [
     "unsure",
     "t_ulp",
     "band",
+    "band_of_reach",
     "ns",
     "ns_least",
 ];
@@ -75,21 +76,32 @@ fn every_kernel_is_shown_every_family_at_every_level_and_a_seed_says_which_rays(
         }
         json["rows"].take()
     };
-    let again = |seed: &str| {
-        let args = [&QUICK[..], &["-q", "--seed", seed, "--json", "-"]].concat();
+    let again = |more: &[&str]| {
+        let args = [&QUICK[..], &["-q", "--json", "-"], more].concat();
         let run = scratch.rt(&args).exits(0);
         assert_eq!(run.stderr, "");
         counts(run.json())
     };
     let first = counts(json);
-    assert_eq!(again("7"), first);
-    assert_ne!(again("8"), first);
+    assert_eq!(again(&["--seed", "7"]), first);
+    let elsewhere = again(&["--seed", "8", "--scale", "0.5", "--offset", "1000"]);
+    for (row, first) in elsewhere.as_array().unwrap().iter().zip(first.as_array().unwrap()) {
+        assert_eq!((&row["scale"], &row["offset"]), (&json!(0.5), &json!(1000.0)));
+        assert_eq!(row["family"], first["family"]);
+    }
+    assert_ne!(elsewhere, first);
 }
 
 #[test]
 fn what_makes_no_sense_is_refused() {
     let scratch = Scratch::with_room();
-    for args in [["--rays", "0"], ["--rays", "many"], ["--seed", "-1"]] {
+    for args in [
+        ["--rays", "0"],
+        ["--rays", "many"],
+        ["--seed", "-1"],
+        ["--scale", "0"],
+        ["--offset", "1e7"],
+    ] {
         scratch.rt(&[&["accuracy"], &args[..]].concat()).exits(2);
     }
     let run = scratch.rt(&["accuracy", "--quick", "--json", "room.obj"]).exits(1);

@@ -88,7 +88,7 @@ fn the_closing_line_says_which_and_why() {
     assert!(wald.contains("; wald kernel (off by at most 1."), "{wald}");
     assert!(wald.ends_with(" px, tolerance 0.05 px)"), "{wald}");
     let needles = line(&["needles.obj", "--tolerance", "0.05"]);
-    let why = "; watertight kernel (no lighter one stays under 0.05 px)";
+    let why = "; watertight kernel (no cheaper one stays under 0.05 px)";
     assert!(needles.ends_with(why), "{needles}");
     let asked = line(&["near.obj", "--kernel", "moller-trumbore"]);
     assert!(asked.ends_with("; moller-trumbore kernel"), "{asked}");
@@ -119,13 +119,14 @@ fn info_tells_what_decides_and_what_follows() {
         "smallest_feature",
         "ratio",
         "worst_aspect",
+        "boxes_met",
         "degenerate",
         "duplicates",
         "curved",
         "kernels",
     ];
     assert_eq!(keys(&odd), expected);
-    let numbers = [8.0, 0.25, 32.0, 32.0];
+    let numbers = [8.0, 0.25, 32.0, 32.0, 2.0];
     for (key, number) in expected.iter().zip(numbers) {
         assert_eq!(odd[key], number, "{key}");
     }
@@ -149,6 +150,7 @@ fn info_tells_what_decides_and_what_follows() {
     for line in [
         "\n  precision   coordinates up to 8.00, features down to 0.250: ratio 32.00\n",
         "\n  slivers     up to 32.00 times as long as high\n",
+        "\n  crowding    a line meets the boxes of 2.00 triangles on average\n",
         "\n  degenerate  1 triangle\n",
         "\n  duplicates  1 triangle\n",
         "\n  kernel      watertight: band ",

@@ -30,11 +30,14 @@ pub struct Verdict {
     /// How far the line passes from the edge that decides, in units of 2^-24 of the greatest
     /// coordinate of ray and triangle: to about 2^-10. Not negative.
     pub band: f64,
+    /// The same in units of 2^-24 of the distance from the ray's origin to the farthest corner.
+    pub band_of_reach: f64,
 }
 
 impl Verdict {
     /// What is said of numbers that are none, and where nothing else can be said.
-    const NONE: Verdict = Verdict { place: Place::Outside, t: f64::NAN, band: 0.0 };
+    const NONE: Verdict =
+        Verdict { place: Place::Outside, t: f64::NAN, band: 0.0, band_of_reach: 0.0 };
 
     /// Whether the ray meets the closed triangle.
     pub fn hits(&self) -> bool {
@@ -75,10 +78,16 @@ pub fn judge(ray: &Ray, corners: [Vec3; 3]) -> Verdict {
         // The distance of two lines; none if they are parallel.
         side / (q.as_dvec3() - p.as_dvec3()).cross(dir).length()
     };
-    let nearest = (0..3).map(|i| off(sides[i], edges[i])).fold(f64::INFINITY, f64::min);
+    let nearest = (0..3).map(|i| off(sides[i], edges[i])).fold(f64::INFINITY, f64::min).abs();
     let greatest = corners.iter().fold(origin.abs(), |max, corner| max.max(corner.abs()));
-    let unit = ROUNDOFF * f64::from(greatest.max_element());
-    Verdict { place, t: distance / speed, band: nearest.abs() / unit }
+    let reach = corners.map(|corner| corner.as_dvec3().distance(origin.as_dvec3()));
+    let band_in = |unit: f64| nearest / (ROUNDOFF * unit);
+    Verdict {
+        place,
+        t: distance / speed,
+        band: band_in(greatest.max_element().into()),
+        band_of_reach: band_in(reach.into_iter().fold(0.0, f64::max)),
+    }
 }
 
 /// What `t` needs.
@@ -122,6 +131,9 @@ mod tests {
         // The nearest edge is 1 away, and the greatest coordinate is 8.
         assert_eq!(verdict.band, (1 << 21) as f64);
         assert_eq!(at(-3.0, 1.0).band, 3.0 * (1 << 21) as f64);
+        // From (1, 1, 0) the farthest corners are √74 away.
+        let of_reach = (1 << 24) as f64 / 74f64.sqrt();
+        assert!((verdict.band_of_reach / of_reach - 1.0).abs() < COARSE);
         let slow = Ray::new(Vec3::new(1.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1e-30));
         let exact = 8.0 / f64::from(1e-30f32);
         assert!((judge(&slow, CORNERS).t / exact - 1.0).abs() < PRECISE);

@@ -7,8 +7,8 @@
 //! 2. [`predict`] says how far from an edge a camera's ray may still be misjudged, with each
 //!    [`Method`](crate::Method): triangle by triangle, by the [`ERRORS`] of the method, in world units and in pixels
 //!    of that camera.
-//! 3. [`choose`] takes the lightest method, that of fewest operations, of which that is less than a
-//!    tolerance.
+//! 3. [`choose`] takes the first method, in the order of measured cost, of which that is less than
+//!    a tolerance, and that pays in a scene with so many triangles of which a ray meets so many.
 //!
 //! # What a tolerance means
 //!

@@ -80,7 +80,9 @@ fn radius(unit: DVec3) -> f64 {
         let phase = x - x.floor() - 0.5;
         1.0 - 8.0 * phase * phase
     };
-    let waves = wave(3.0 * unit.x + 2.0 * unit.z) + wave(4.0 * unit.y - unit.x) + wave(3.0 * unit.z + unit.y);
+    let waves = wave(3.0 * unit.x + 2.0 * unit.z)
+        + wave(4.0 * unit.y - unit.x)
+        + wave(3.0 * unit.z + unit.y);
     4.0 + 0.1 * waves
 }
 

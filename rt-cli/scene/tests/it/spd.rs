@@ -1,5 +1,8 @@
 //! Procedural scenes.
 
+use std::collections::HashSet;
+
+use glam::{DVec3, Vec3};
 use rt_scene::{Cone, Scene, Sphere, Triangle, spd};
 
 use crate::support::nff;
@@ -239,4 +242,43 @@ fn the_list_of_procedures_is_good() {
         let scene = spd::generate(procedure.name, Some(procedure.sizes.0)).unwrap();
         assert!(scene.bounds().is_some(), "{}", procedure.about);
     }
+}
+
+fn corners(scene: &Scene) -> impl Iterator<Item = [DVec3; 3]> {
+    let at = |i: u32| scene.mesh.positions[i as usize].as_dvec3();
+    scene.mesh.triangles.iter().map(move |triangle| triangle.position.map(at))
+}
+
+#[test]
+fn near_and_far_are_closed_and_face_outward() {
+    for (name, size) in [("near", 1), ("near", 5), ("far", 5), ("near", 8)] {
+        let scene = spd::generate(name, Some(size)).unwrap();
+        assert_eq!(scene.mesh.triangles.len() as u32, 12 * size * size);
+        let edges = scene.mesh.triangles.iter().flat_map(|triangle| {
+            let [a, b, c] = triangle.position;
+            [[a, b], [b, c], [c, a]]
+        });
+        let edges: HashSet<_> = edges.collect();
+        assert_eq!(edges.len(), 3 * scene.mesh.triangles.len(), "an edge runs the same way twice");
+        assert!(edges.iter().all(|&[a, b]| edges.contains(&[b, a])), "{name}: not closed");
+        let (low, high) = scene.bounds().unwrap();
+        let center = (low.as_dvec3() + high.as_dvec3()) / 2.0;
+        for [a, b, c] in corners(&scene) {
+            assert!((b - a).cross(c - a).dot(a - center) > 0.0, "{name}: inside out");
+        }
+        assert_eq!(center.length() > 2e5, name == "far");
+    }
+}
+
+#[test]
+fn slivers_are_needles_all_around() {
+    let scene = spd::generate("slivers", Some(2)).unwrap();
+    let mut area = 0.0;
+    for [a, b, c] in corners(&scene) {
+        let twice = (b - a).cross(c - a);
+        assert!(twice.z > 0.0 && b.distance(c) < 0.05 * a.distance(b), "{a} {b} {c}");
+        area += twice.z / 2.0;
+    }
+    assert!((area - std::f64::consts::PI).abs() < 1e-2, "{area}");
+    assert_eq!(scene.bounds(), Some((Vec3::new(-1.0, -1.0, 0.125), Vec3::new(1.0, 1.0, 0.125))));
 }
