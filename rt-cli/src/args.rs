@@ -1,8 +1,10 @@
 //! The command line.
 
 mod machine;
+mod paper;
 
 pub(crate) use machine::{BuildArgs, MachineArgs, best_level};
+pub(crate) use paper::{GeimerMuellerArgs, Paper, PaperArgs, Wald2001Args};
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -334,43 +336,6 @@ pub(crate) struct ChartArgs {
     /// The .svg file to write; - for standard output.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-}
-
-/// Measure again what a paper measured, with its figures beside ours.
-///
-/// wald-2001 is Wald, Slusallek, Benthin and Wagner, "Interactive Rendering with Coherent Ray Tracing":
-/// triangle tests (Table 1), what packets have in common (Table 2), rays through kd-trees and BVHs of
-/// terrains and of any scenes that are named (Table 3), mailboxes, and growth beside a rasteriser's.
-#[derive(Group)]
-#[command(after_help = "Examples:\n  \
-    rt paper wald-2001 --quick\n  \
-    rt paper wald-2001 bunny.obj conference.obj --charts .")]
-pub(crate) struct PaperArgs {
-    /// Which paper.
-    #[arg(value_enum)]
-    pub(crate) paper: PaperArg,
-    #[arg(value_name = "SCENE", help = SCENE)]
-    pub(crate) scenes: Vec<OsString>,
-    /// Fewer triangles.
-    #[arg(long)]
-    pub(crate) quick: bool,
-    /// The most triangles of a terrain.
-    #[arg(long, value_name = "N", default_value_t = 1_100_000)]
-    pub(crate) triangles: u32,
-    /// How often everything is timed.
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) rounds: u16,
-    /// Write charts to .svg files in that folder.
-    #[arg(long, value_name = "FOLDER")]
-    pub(crate) charts: Option<PathBuf>,
-}
-
-/// The papers whose measurements there are.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum PaperArg {
-    /// Interactive Rendering with Coherent Ray Tracing.
-    #[value(name = "wald-2001")]
-    Wald2001,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]

@@ -62,6 +62,9 @@ pub(crate) enum Error {
     /// Two outputs would go to one place.
     #[error("{}: picture and statistics cannot go to the same place", .0.display())]
     SameOutput(PathBuf),
+    /// The simulator does not do what is asked of it.
+    #[error("cachegrind: {0}")]
+    Cachegrind(String),
     /// A kernel is less accurate than it is known to be.
     #[error("less accurate than it should be:\n  {}", .0.join("\n  "))]
     Inaccurate(Vec<String>),

@@ -2,10 +2,11 @@
 
 use glam::Vec3;
 use proptest::prelude::*;
+use rt_kernels::bvh::traverse::catalogue;
 use rt_kernels::geom::Triangle;
 use rt_kernels::tri::Method;
 use rt_kernels::{Accelerator, Brute, Builder, Bvh, Exec, Hits, KdBuilder, KdTree, Layout};
-use rt_kernels::{Mailbox, PacketSize, Primitives};
+use rt_kernels::{Mailbox, PacketSize, Plan, Primitives};
 use rt_kernels::{Ray, Rays, Sequential, Stats};
 use rt_tests::mesh::Mesh;
 use rt_tests::oracle::entry;
@@ -71,7 +72,30 @@ fn one_answer_with(
             same(&want, &format!("{plan:?}"), &kd, exec, rays);
         }
     }
+    if method == Method::default() {
+        same_compared(&want, scene, rays);
+    }
     hits
+}
+
+/// The traversals that are there to be compared, over children in either order.
+fn same_compared(want: &[Bits], scene: &Primitives, rays: &Rays) {
+    let plan = Plan { builder: Builder::Insertion, ..Plan::default() };
+    let sorted = Bvh::build_with(scene, plan, &Sequential).expect("a scene in range");
+    let unsorted = Bvh::build_unsorted(scene, plan.builder, &Sequential).expect("a scene in range");
+    for (traversal, bvh) in
+        catalogue().into_iter().flat_map(|one| [(one, &sorted), (one, &unsorted)])
+    {
+        for level in Level::available() {
+            let mut hits = Hits::new();
+            traversal.closest(level, bvh, rays, &mut hits, &mut Stats::default());
+            for (i, want) in want.iter().enumerate() {
+                let (order, test) = (traversal.order(), traversal.box_test());
+                let got = hits.get(i).map(bits);
+                assert_eq!(got, *want, "{order}, {test}, {level}: ray {i}, {:?}", rays.get(i));
+            }
+        }
+    }
 }
 
 fn same(want: &[Bits], name: &str, accel: &impl Accelerator, exec: Exec, rays: &Rays) {

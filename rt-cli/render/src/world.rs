@@ -109,6 +109,11 @@ impl World {
         Ok(World { scene, accel, scale, kind, plan, bounds, build_time })
     }
 
+    /// What the scene is called.
+    pub fn name(&self) -> &str {
+        &self.scene.name
+    }
+
     /// What finds the hits.
     pub fn accel_kind(&self) -> AccelKind {
         self.kind
@@ -121,6 +126,11 @@ impl World {
             AccelKind::Kd { builder, .. } => Some(builder.name()),
             AccelKind::Brute => None,
         }
+    }
+
+    /// By what plan a hierarchy of its scene is built.
+    pub(crate) fn plan(&self) -> Plan {
+        self.plan
     }
 
     /// How the acceleration structure lies in memory.

@@ -17,6 +17,7 @@ pub use refit::RefitError;
 
 use crate::accelerator::Visitor;
 use crate::packet::{Hits, Rays};
+use crate::tri::Method;
 use crate::{Accelerator, Exec, Primitives, Ray, Stats};
 use layout::{SkipArray, Wide};
 
@@ -78,6 +79,31 @@ impl Bvh {
             Layout::Bvh8 => Array::Bvh8(Wide::new(primitives, tree)),
         };
         Ok(Bvh { plan, array })
+    }
+
+    /// The same by the default triangle test in a skip array whose children are in the builder's
+    /// order, not in that of their surface: for comparison.
+    ///
+    /// # Errors
+    /// As [`build`](Bvh::build).
+    pub fn build_unsorted(
+        primitives: &Primitives,
+        builder: Builder,
+        join: &impl Join,
+    ) -> Result<Bvh, BuildError> {
+        primitives.check()?;
+        let plan = Plan { builder, ..Plan::default() };
+        let tree = builder.build(primitives, join);
+        let array = SkipArray::unsorted(primitives, tree, plan.method);
+        Ok(Bvh { plan, array: Array::Skip(array) })
+    }
+
+    /// The array, if it is one with skip pointers and the default triangle test.
+    pub(crate) fn skip_array(&self) -> Option<&SkipArray> {
+        match &self.array {
+            Array::Skip(array) if self.plan.method == Method::default() => Some(array),
+            _ => None,
+        }
     }
 
     /// Takes new positions of the primitives that it was built for, in the same order, and keeps its

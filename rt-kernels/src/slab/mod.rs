@@ -26,6 +26,7 @@ pub use catalogue::{BoxTest, catalogue};
 pub use conservative::{AsPrinted, Conservative, Corrected, Estimated};
 pub use robust::Robust;
 pub use shared_origin::SharedOrigin;
+pub(crate) use shared_origin::Viewed;
 pub use signed::Signed;
 pub use sweep::{BoxSet, Crossings};
 pub use unordered::Unordered;

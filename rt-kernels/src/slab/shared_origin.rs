@@ -59,6 +59,41 @@ pub(super) fn common<V: SimdF32>(s: V::Simd, packet: &Packet<V>) -> Option<[f32;
     same.all().then_some([first_x, first_y, first_z])
 }
 
+/// A packet as a kernel has it against box after box: seen from its own origin, where the kernel
+/// asks for that and all rays have the same.
+pub(crate) struct Viewed<V> {
+    packet: Packet<V>,
+    origin: Option<[f32; 3]>,
+}
+
+impl<V: SimdF32> Viewed<V> {
+    /// For the kernel `K`.
+    #[inline(always)]
+    pub(crate) fn by<K: BoxKernel>(s: V::Simd, packet: &Packet<V>) -> Self {
+        if K::SHARED_ORIGIN
+            && let Some(origin) = common(s, packet)
+        {
+            return Viewed { packet: from_origin(s, packet), origin: Some(origin) };
+        }
+        Viewed { packet: *packet, origin: None }
+    }
+
+    /// Tests one box.
+    #[inline(always)]
+    pub(crate) fn test<K: BoxKernel, F: Frame<V>>(
+        &self,
+        s: V::Simd,
+        aabb: &Aabb,
+        frame: &F,
+        limit: V,
+    ) -> Option<Crossing<V>> {
+        match self.origin {
+            Some(origin) => K::test(s, &seen_from(aabb, origin), &self.packet, frame, limit),
+            None => K::test(s, aabb, &self.packet, frame, limit),
+        }
+    }
+}
+
 /// The packet as seen from its own origin.
 #[inline(always)]
 pub(super) fn from_origin<V: SimdF32>(s: V::Simd, packet: &Packet<V>) -> Packet<V> {

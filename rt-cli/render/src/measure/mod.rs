@@ -1,17 +1,21 @@
 //! Measuring the kernels: the same rays, once for each way to run them, in interleaved rounds.
 
 mod coherence;
+mod frames;
 mod lanes;
 mod random;
 mod raster;
 mod rays;
 mod terrain;
+mod traversals;
 
 pub use coherence::{MailRow, kd_tree, mailboxes, packet_overhead, two_threads};
+pub use frames::{Extent, FrameTimes, frames};
 pub use lanes::{TestRow, tests};
 pub use raster::ZBuffer;
 pub use rays::{Batches, diffuse, primary, shadow};
 pub use terrain::terrain;
+pub use traversals::{TraversalRow, traversals};
 
 use std::time::{Duration, Instant};
 

@@ -2,7 +2,7 @@
 //!
 //! Source: Haines, "A Proposal for Standard Graphics Environments", IEEE Computer Graphics and
 //! Applications 7(11), 1987, and the programs published with it. Beside them stand three scenes of
-//! our own that differ in the [`precision`] that they need.
+//! our own that need different precision.
 
 mod balls;
 mod gears;

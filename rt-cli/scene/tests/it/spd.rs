@@ -31,6 +31,8 @@ fn counts(name: &str, size: u32) -> Vec<(&'static str, u64)> {
             let branches = 2_u64.pow(size + 1) - 1;
             vec![("cone", branches), ("polygon", 1), ("sphere", branches)]
         }
+        "near" | "far" => vec![("polygon", 12 * n * n)],
+        "slivers" => vec![("polygon", 100 * n)],
         _ => panic!("{name} has no counts"),
     }
 }

@@ -51,8 +51,27 @@ impl SkipArray {
     /// Converts a build tree. Children come in decreasing order of their surface: the larger is the
     /// likelier to be hit, and a hit bounds the rest.
     pub(crate) fn new(primitives: &Primitives, tree: build::Tree, method: Method) -> SkipArray {
+        SkipArray::flattened(primitives, tree, method, true)
+    }
+
+    /// The same with children in the order in which the builder left them.
+    pub(crate) fn unsorted(
+        primitives: &Primitives,
+        tree: build::Tree,
+        method: Method,
+    ) -> SkipArray {
+        SkipArray::flattened(primitives, tree, method, false)
+    }
+
+    fn flattened(
+        primitives: &Primitives,
+        tree: build::Tree,
+        method: Method,
+        sorted: bool,
+    ) -> SkipArray {
         let build::Tree { root, order: mut references } = tree;
         let mut flat = Flattener {
+            sorted,
             counts: primitives.counts(),
             order: Vec::with_capacity(references.len()),
             ..Flattener::default()
@@ -133,6 +152,8 @@ impl Refit for SkipArray {
 /// An array that grows.
 #[derive(Default)]
 struct Flattener {
+    /// Whether children are sorted by surface.
+    sorted: bool,
     /// How many primitives there are of each kind.
     counts: [usize; KINDS],
     nodes: Vec<Node>,
@@ -149,7 +170,9 @@ impl Flattener {
             Content::Inner(mut children) => {
                 let at = self.nodes.len();
                 self.nodes.push(Node { aabb: node.aabb, skip: 0, leaf: 0 });
-                children.sort_by(|a, b| b.aabb.half_area().total_cmp(&a.aabb.half_area()));
+                if self.sorted {
+                    children.sort_by(|a, b| b.aabb.half_area().total_cmp(&a.aabb.half_area()));
+                }
                 for child in children {
                     self.emit(child, references);
                 }

@@ -1,4 +1,8 @@
 //! Traversals: one file a layout and order of visits.
 
+mod compared;
+pub mod heap;
 pub mod skip;
 pub mod wide;
+
+pub use compared::{Compared, catalogue};

@@ -1,35 +1,44 @@
 //! Depth-first traversal without a stack: a node that is missed skips its subtree.
 //!
 //! If any ray of the packet hits a node, all go on to its children. Source: Geimer and Müller
-//! 2003, Section 3.3; Smits 1998. Deviations: nodes behind what was already found are skipped, and
-//! the box test is [`robust`].
+//! 2003, Section 3.3; Smits 1998. Deviation: nodes behind what was already found are skipped. The
+//! box test is an argument: [`Robust`] where it renders.
 
-use simd4::{SimdF32, SimdMask};
+use simd4::SimdF32;
 
 use crate::Stats;
 use crate::bvh::layout::SkipArray;
 use crate::packet::{Frame, Packet, Query};
-use crate::slab::robust;
+use crate::slab::{BoxKernel, Robust, Viewed};
 use crate::trace::Traverse;
+use crate::tri::knobs::Division;
 use crate::tri::{Method, TriangleKernel};
 
 /// Hands the primitives of every leaf that some ray may hit to their kernels, triangles to `K`: that
-/// of the method that the array was made for.
+/// of the method that the array was made for. `B` may say "may hit" too often, but no less often than
+/// [`Robust`] does.
 #[inline(always)]
-pub fn traverse<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
+pub fn traverse<B, K, V, F, Q>(
     s: V::Simd,
     array: &SkipArray,
     packet: &Packet<V>,
     frame: &F,
     query: &mut Q,
     stats: &mut Stats,
-) {
+) where
+    B: BoxKernel<Reciprocal = Division>,
+    K: TriangleKernel,
+    V: SimdF32,
+    F: Frame<V>,
+    Q: Query<V>,
+{
     let nodes = array.nodes();
+    let viewed = Viewed::by::<B>(s, packet);
     let mut i = 0;
     let mut visits = 0;
     while let Some(node) = nodes.get(i) {
         visits += 1;
-        if robust::may_hit(s, &node.aabb, packet, frame, query.limit()).none() {
+        if viewed.test::<B, F>(s, &node.aabb, frame, query.limit()).is_none() {
             i = node.skip as usize;
             continue;
         }
@@ -57,7 +66,7 @@ impl Traverse for SkipArray {
         query: &mut Q,
         stats: &mut Stats,
     ) {
-        traverse::<K, V, F, Q>(s, self, packet, frame, query, stats);
+        traverse::<Robust, K, V, F, Q>(s, self, packet, frame, query, stats);
     }
 
     fn method(&self) -> Method {

@@ -1,4 +1,4 @@
-//! `rt paper`: what a paper measured, measured again.
+//! `rt paper wald-2001`.
 //!
 //! Wald, Slusallek, Benthin, Wagner, "Interactive Rendering with Coherent Ray Tracing", 2001. Their
 //! figures, of a Pentium III at 800 MHz, stand beside ours.
@@ -10,9 +10,9 @@ use rt_render::measure::{self, Batches, Way, ZBuffer, terrain};
 use rt_render::{AccelKind, Exec, Integrator, Job, KdBuilder, Level, Mailbox, PacketSize, World};
 use rt_scene::Scene;
 
-use super::render::default_view;
-use crate::args::{PaperArg, PaperArgs, best_level};
+use crate::args::{Wald2001Args, best_level};
 use crate::chart::{Line, Lines};
+use crate::cmd::render::default_view;
 use crate::error::Error;
 use crate::output::{self, Output};
 
@@ -32,8 +32,7 @@ const COMPARED: [(usize, f64); 6] = [
 /// The places of its hash tables that are tried: 2 to the power of these.
 const TABLES: std::ops::RangeInclusive<u8> = 0..=12;
 
-pub(crate) fn run(args: &PaperArgs) -> Result<(), Error> {
-    let PaperArg::Wald2001 = args.paper;
+pub(crate) fn run(args: &Wald2001Args) -> Result<(), Error> {
     let level = best_level()?;
     let most = (args.triangles as usize).min(if args.quick { 300_000 } else { usize::MAX });
     tests(level, args)?;
@@ -48,7 +47,7 @@ fn show(text: &str) -> Result<(), Error> {
 }
 
 /// Writes a chart, if charts are wanted.
-fn chart(args: &PaperArgs, name: &str, lines: &Lines<'_>) -> Result<(), Error> {
+fn chart(args: &Wald2001Args, name: &str, lines: &Lines<'_>) -> Result<(), Error> {
     let Some(folder) = &args.charts else { return Ok(()) };
     let path = folder.join(name);
     Output::open(&path)?.write(lines.svg().as_bytes())?;
@@ -75,7 +74,7 @@ fn kd(builder: KdBuilder) -> AccelKind {
 }
 
 /// Those that were asked for, after the terrains of these numbers of triangles.
-fn scenes(args: &PaperArgs, sizes: impl Iterator<Item = usize>) -> Result<Vec<Scene>, Error> {
+fn scenes(args: &Wald2001Args, sizes: impl Iterator<Item = usize>) -> Result<Vec<Scene>, Error> {
     let mut scenes: Vec<_> = sizes.map(terrain).collect();
     for name in &args.scenes {
         scenes.push(rt_scene::open(name)?);
@@ -84,7 +83,7 @@ fn scenes(args: &PaperArgs, sizes: impl Iterator<Item = usize>) -> Result<Vec<Sc
 }
 
 /// Table 1.
-fn tests(level: Level, args: &PaperArgs) -> Result<(), Error> {
+fn tests(level: Level, args: &Wald2001Args) -> Result<(), Error> {
     let four = if level.lanes() < 4 { level } else { four_lanes(level) };
     show(&format!(
         "Table 1: ns a ray-triangle test at {four}; the paper: cycles, 1.25 ns each\n\
@@ -118,7 +117,7 @@ fn four_lanes(best: Level) -> Level {
 }
 
 /// Table 2.
-fn overhead(level: Level, args: &PaperArgs, most: usize) -> Result<(), Error> {
+fn overhead(level: Level, args: &Wald2001Args, most: usize) -> Result<(), Error> {
     show(&format!(
         "Table 2: visits of nodes in packets more than ray by ray\n{:<24}{:>10}{:>9}{:>9}{:>9}{:>11}",
         "", "triangles", "2×2", "4×4", "8×8", "2×2, 256²"
@@ -148,7 +147,7 @@ fn overhead(level: Level, args: &PaperArgs, most: usize) -> Result<(), Error> {
 }
 
 /// Table 3, and the BVH beside the kd-tree.
-fn compared(level: Level, args: &PaperArgs, most: usize) -> Result<(), Error> {
+fn compared(level: Level, args: &Wald2001Args, most: usize) -> Result<(), Error> {
     show(&format!(
         "Table 3: rays of 512×512 pixels, one thread; ray by ray in scalar code and in packets at \
          {level}\n{:<18}{:<14}{:>8}{:>7}{:<9}{:>8}{:>9}{:>8}{:>9}{:>8}{:>8}",
@@ -235,7 +234,7 @@ fn compared(level: Level, args: &PaperArgs, most: usize) -> Result<(), Error> {
 }
 
 /// Section 2.3.
-fn mailboxes(level: Level, args: &PaperArgs, most: usize) -> Result<(), Error> {
+fn mailboxes(level: Level, args: &Wald2001Args, most: usize) -> Result<(), Error> {
     show(&format!(
         "Mailboxes: tests spared of those without any, and time to that without any\n{:<18}{:<9}{:<16}{:>8}{:>9}{:>9}",
         "", "rays", "mailbox", "tests", "spared", "time"
@@ -295,7 +294,7 @@ fn mailboxes(level: Level, args: &PaperArgs, most: usize) -> Result<(), Error> {
 }
 
 /// Figure 5.
-fn growth(level: Level, args: &PaperArgs, most: usize) -> Result<(), Error> {
+fn growth(level: Level, args: &Wald2001Args, most: usize) -> Result<(), Error> {
     show(&format!(
         "Figure 5: ms for a picture of 512×512 pixels of a terrain, one thread\n{:>10}{:>12}{:>10}{:>10}",
         "triangles", "rasteriser", "kd-tree", "BVH"

@@ -1,0 +1,93 @@
+//! `rt paper`.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::{Args as Group, Subcommand};
+use rt_render::measure::Extent;
+
+/// Measure again what a paper measured, with its figures beside ours.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt paper wald-2001 --quick\n  \
+    rt paper geimer-mueller --quick --cachegrind")]
+pub(crate) struct PaperArgs {
+    /// Which paper.
+    #[command(subcommand)]
+    pub(crate) paper: Paper,
+}
+
+/// The papers whose measurements there are.
+#[derive(Subcommand)]
+pub(crate) enum Paper {
+    #[command(name = "wald-2001")]
+    Wald2001(Wald2001Args),
+    GeimerMueller(GeimerMuellerArgs),
+}
+
+/// Wald, Slusallek, Benthin and Wagner, "Interactive Rendering with Coherent Ray Tracing".
+///
+/// Triangle tests (Table 1), what packets have in common (Table 2), rays through kd-trees and BVHs of
+/// terrains and of any scenes that are named (Table 3), mailboxes, and growth beside a rasteriser's.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt paper wald-2001 --quick\n  \
+    rt paper wald-2001 bunny.obj conference.obj --charts .")]
+pub(crate) struct Wald2001Args {
+    #[arg(value_name = "SCENE", help = super::SCENE)]
+    pub(crate) scenes: Vec<OsString>,
+    /// Fewer triangles.
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// The most triangles of a terrain.
+    #[arg(long, value_name = "N", default_value_t = 1_100_000)]
+    pub(crate) triangles: u32,
+    /// How often everything is timed.
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) rounds: u16,
+    /// Write charts to .svg files in that folder.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) charts: Option<PathBuf>,
+}
+
+/// Geimer and Müller, "A Cross-Platform Framework for Interactive Ray Tracing", 2003.
+///
+/// Frames and their ray casting at every level (Figure 2); children sorted or not, heap order, box
+/// tests, shared origins, and a frame in three stages (Section 3). One thread; interleaved rounds; the
+/// least time of each. All ways to make a frame must give the same picture, and all traversals the
+/// same hits.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt paper geimer-mueller\n  \
+    rt paper geimer-mueller --quick --cachegrind")]
+pub(crate) struct GeimerMuellerArgs {
+    /// Smaller scenes: some seconds.
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Width and height in pixels.
+    #[arg(short, long, value_name = "WxH", value_parser = super::size, default_value = "512x512")]
+    pub(crate) size: (u32, u32),
+    /// How often everything is timed.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) rounds: u16,
+    /// Count cache misses too, in valgrind, which has to be there.
+    #[arg(long)]
+    pub(crate) cachegrind: bool,
+    /// Write the rows to a .json file too; - for standard output, where no table is then.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// What --cachegrind runs: a frame of NAME:SIZE, or none, and nothing else.
+    #[arg(long, value_name = "SCENE,EXTENT", value_parser = frame, hide = true)]
+    pub(crate) frame: Option<(String, Option<Extent>)>,
+}
+
+fn frame(text: &str) -> Result<(String, Option<Extent>), String> {
+    let (scene, extent) = text.split_once(',').ok_or("expected a scene and an extent")?;
+    let extent = match extent {
+        "none" => None,
+        "tile" => Some(Extent::Tile),
+        "picture" => Some(Extent::Picture),
+        _ => return Err("expected none, tile or picture".into()),
+    };
+    Ok((scene.to_owned(), extent))
+}
