@@ -74,6 +74,9 @@ fn simulate(
         .output()
         .map_err(|error| failed(format!("cannot run valgrind: {error}")))?;
     let talk = String::from_utf8_lossy(&run.stderr);
+    if !run.status.success() {
+        return Err(failed(talk.into_owned()));
+    }
     let count = |what: &str| parse(&talk, what).ok_or_else(|| failed(format!("{what}?\n{talk}")));
     Ok(Misses([count("D1  misses:")?, count("LLd misses:")?]))
 }

@@ -65,8 +65,8 @@ pub(super) fn frames(ways: &[(Exec, Extent)], frames: &[FrameTimes], level: Leve
         let times = ratio(whole.total, frames[tiles].total);
         let _ = writeln!(
             text,
-            "  {:<58}{times:>7.2}",
-            "whole picture in three stages, to tile at a time"
+            "  {:<52}{times:>7.2}{:>12}",
+            "frame in three stages of the picture, to by tiles", "a gain"
         );
     }
     text
