@@ -135,7 +135,9 @@ fn overhead(level: Level, args: &Wald2001Args, most: usize) -> Result<(), Error>
         };
         let (large, small) = (over(1024, &[4, 16, 64])?, over(256, &[4])?);
         let cells: String = large.iter().map(|share| format!("{:>7.1} %", share * 100.0)).collect();
-        let paper = paper.get(i).map_or(String::new(), |paper| format!("   paper: {paper}"));
+        let terrain = COHERENT.iter().take_while(|size| **size <= most).count();
+        let paper = paper.get(i).filter(|_| i < terrain);
+        let paper = paper.map_or(String::new(), |paper| format!("   paper: {paper}"));
         show(&format!(
             "{:<24}{:>10}{cells}{:>9.1} %{paper}",
             scene.name,
