@@ -5,6 +5,7 @@ use simd4::{Level, Scalar, Simd, SimdF32, dispatch};
 
 use crate::accelerator::Visitor;
 use crate::bvh::layout::Wide;
+use crate::bvh::traverse::large;
 use crate::bvh::traverse::wide::{self, Stack};
 use crate::packet::{Ask, Hits, Packet, Rays, Single};
 use crate::trace::{Traverse, in_frame};
@@ -29,13 +30,13 @@ where
 {
     fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats) {
         hits.resize(rays.len());
-        one_by_one(self, exec.level, Work::Batch { rays, any: false, hits, stats });
+        batch(self, exec, rays, false, hits, stats);
     }
 
     fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats) {
         let mut hits = Hits::new();
         hits.resize(rays.len());
-        one_by_one(self, exec.level, Work::Batch { rays, any: true, hits: &mut hits, stats });
+        batch(self, exec, rays, true, &mut hits, stats);
         hits.found(found);
     }
 
@@ -45,7 +46,8 @@ where
     }
 
     fn exec(&self, asked: Exec) -> Exec {
-        Exec { packet: PacketSize::Single, ..asked }
+        let single = asked.packet == PacketSize::Single;
+        Exec { packet: if single { PacketSize::Single } else { PacketSize::Large }, ..asked }
     }
 
     fn bytes(&self) -> usize {
@@ -76,6 +78,30 @@ enum Work<'a> {
     One { ray: &'a Ray, visitor: Visitor<'a> },
 }
 
+fn batch<const N: usize>(
+    wide: &Wide<N>,
+    exec: Exec,
+    rays: &Rays,
+    any: bool,
+    hits: &mut Hits,
+    stats: &mut Stats,
+) where
+    Wide<N>: Width,
+{
+    let mut done = Stats::default();
+    match exec.packet {
+        PacketSize::Single => one_by_one(
+            wide,
+            exec.level,
+            Work::Batch { rays, any, hits, stats: &mut done },
+        ),
+        _ => dispatch!(exec.level, s => large::trace::<_, <Wide<N> as Width>::Vector<_>, N>(
+            s, wide, rays, any, hits, &mut done
+        )),
+    }
+    *stats += done;
+}
+
 fn one_by_one<const N: usize>(wide: &Wide<N>, level: Level, work: Work<'_>)
 where
     Wide<N>: Width,
@@ -84,32 +110,19 @@ where
 }
 
 #[inline(always)]
-fn in_all_lanes<V: SimdF32, const N: usize>(s: V::Simd, wide: &Wide<N>, mut work: Work<'_>) {
+fn in_all_lanes<V: SimdF32, const N: usize>(s: V::Simd, wide: &Wide<N>, work: Work<'_>) {
     let mut stack = Stack::new(wide);
-    let mut done = Stats::default();
-    let mut i = 0;
-    loop {
-        let (ray, ask) = match &mut work {
-            Work::Batch { rays, .. } if i == rays.len() => break,
-            Work::Batch { rays, any, .. } => {
-                (rays.get(i), if *any { Ask::Any } else { Ask::Closest })
+    match work {
+        Work::Batch { rays, any, hits, stats } => {
+            for i in 0..rays.len() {
+                let ask = if any { Ask::Any } else { Ask::Closest };
+                let hit = wide::trace::<V, N>(s, wide, &mut stack, &rays.get(i), ask, stats);
+                hits.set(i, hit);
             }
-            Work::One { .. } if i == 1 => break,
-            Work::One { ray, visitor } => (**ray, Ask::Each(visitor)),
-        };
-        let packet = Packet::<V>::splat(s, &ray);
-        let mut query = Single::new(&packet, ask);
-        // All lanes agree.
-        if let Ok(frame) = packet.frame(s) {
-            wide::traverse(s, wide, &mut stack, &packet, &frame, &mut query, &mut done);
         }
-        let found = query.hit();
-        if let Work::Batch { hits, .. } = &mut work {
-            hits.set(i, found);
+        Work::One { ray, visitor } => {
+            let mut stats = Stats::default();
+            wide::trace::<V, N>(s, wide, &mut stack, ray, Ask::Each(visitor), &mut stats);
         }
-        i += 1;
-    }
-    if let Work::Batch { stats, .. } = work {
-        *stats += done;
     }
 }

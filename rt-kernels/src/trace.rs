@@ -6,7 +6,7 @@ use simd4::{Level, LevelError, Simd, SimdF32, dispatch, scalar};
 
 use crate::accelerator::Visitor;
 use crate::bvh::layout::SkipArray;
-use crate::packet::{Any, Closest, Frame, Hits, Packet, Query, Rays};
+use crate::packet::{Any, Closest, Frame, Hits, LARGE, Packet, Query, Rays};
 use crate::tri::{Method, TriangleKernel, with_kernel};
 use crate::{Accelerator, Brute, Ray, Stats, single};
 
@@ -23,6 +23,9 @@ pub enum PacketSize {
     Four,
     /// Eight rays; four on a level without registers.
     Eight,
+    /// As many as go together, up to 64: over [wide nodes](crate::Layout) alone, where it is the
+    /// native size.
+    Large,
 }
 
 /// How to run a batch. No choice changes the hits.
@@ -49,10 +52,15 @@ impl Exec {
     }
 
     /// The nearest to it of what there is code for: where no register holds a packet, eight rays
-    /// gain nothing on four.
+    /// gain nothing on four; large packets are for [wide nodes](crate::Layout).
     pub(crate) fn compiled(self) -> Exec {
-        let emulated = matches!(self.level, Level::Scalar(_)) && self.packet == PacketSize::Eight;
-        Exec { packet: if emulated { PacketSize::Four } else { self.packet }, ..self }
+        let emulated = matches!(self.level, Level::Scalar(_));
+        let packet = match self.packet {
+            PacketSize::Eight if emulated => PacketSize::Four,
+            PacketSize::Large => PacketSize::Native,
+            packet => packet,
+        };
+        Exec { packet, ..self }
     }
 
     /// The nearest to it where there is code for the fewest: single rays, and registers of levels
@@ -70,6 +78,7 @@ impl Exec {
             PacketSize::Single => 1,
             PacketSize::Four => 4,
             PacketSize::Eight => 8,
+            PacketSize::Large => LARGE,
         }
     }
 }

@@ -81,6 +81,13 @@ pub trait Simd: Copy + Send + Sync + core::fmt::Debug + sealed::Sealed + 'static
     /// The level that this token proves.
     fn level(self) -> Level;
 
+    /// Says that a `T` will be read soon, all of it. A hint: nothing changes but the time, and
+    /// there need not be one.
+    #[inline(always)]
+    fn prefetch<T>(self, at: *const T) {
+        let _ = at;
+    }
+
     /// Calls `f` from a function that is compiled for this level.
     ///
     /// `f` must be inlined to profit: [`dispatch!`](crate::dispatch) sees to that.

@@ -174,7 +174,7 @@ impl Compared {
     /// Whether a world and a way to trace it make a row. Where layouts are compared there is none for
     /// packets that come to single rays, which have one.
     fn shows(self, world: &World, exec: Exec) -> bool {
-        self != Compared::Layouts || world.exec(exec).packet == exec.packet
+        self != Compared::Layouts || (world.exec(exec).packet == PacketSize::Single) == (exec.packet == PacketSize::Single)
     }
 
     /// The columns' names.

@@ -25,18 +25,20 @@ impl Plan {
 /// How a hierarchy lies in memory, and with that how it is traversed. The hits do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Layout {
-    /// Depth first with skip pointers ([`SkipArray`](super::layout::SkipArray)): for rays in packets.
+    /// Eight children a node ([`Wide`](super::layout::Wide)): for all rays, many together or one by
+    /// one.
     #[default]
-    Skip,
-    /// Four children a node ([`Wide`](super::layout::Wide)): for rays one by one, as bounce has them.
-    Bvh4,
-    /// Eight children a node.
     Bvh8,
+    /// Four children a node.
+    Bvh4,
+    /// Depth first with skip pointers ([`SkipArray`](super::layout::SkipArray)): for rays in packets,
+    /// and for triangle tests other than the default.
+    Skip,
 }
 
 impl Layout {
     /// All of them, the default first.
-    pub const ALL: [Layout; 3] = [Layout::Skip, Layout::Bvh4, Layout::Bvh8];
+    pub const ALL: [Layout; 3] = [Layout::Bvh8, Layout::Bvh4, Layout::Skip];
 
     /// What it is called, on the command line too.
     pub fn name(self) -> &'static str {

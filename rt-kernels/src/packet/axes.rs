@@ -23,7 +23,7 @@ impl SameAxis {
 
     /// The axes that become x, y and z.
     #[inline(always)]
-    pub(super) fn order(self) -> [usize; 3] {
+    pub(crate) fn order(self) -> [usize; 3] {
         self.0
     }
 }

@@ -27,7 +27,7 @@ pub trait Frame<V: SimdF32> {
 #[derive(Clone, Copy, Debug)]
 pub struct Shear<V> {
     /// The origin, with the dominant axis as its z.
-    origin: Vec3<V>,
+    pub(super) origin: Vec3<V>,
     /// What to subtract from x for each z.
     pub x: V,
     /// What to subtract from y for each z.
@@ -80,9 +80,7 @@ impl<V: SimdF32> Packet<V> {
                 (_, true) => 1,
                 _ => 2,
             });
-            let near = [x.into(), y.into(), z.into()];
-            let far = [(!x).into(), (!y).into(), (!z).into()];
-            return Ok(Coherent { near, far, axes, shear: self.shear(axes) });
+            return Ok(Coherent::new([x, y, z], axes, self.shear(axes)));
         }
         Err(self.mixed(s))
     }
@@ -90,13 +88,20 @@ impl<V: SimdF32> Packet<V> {
     /// The frame that fits any packet.
     #[inline(always)]
     pub fn mixed(&self, s: V::Simd) -> Mixed<V> {
+        let (shear, axes) = self.own_shear();
+        Mixed { negative: self.negative(s), axes, shear }
+    }
+
+    /// The shear of each lane, and its dominant axis.
+    #[inline(always)]
+    pub(super) fn own_shear(&self) -> (Shear<V>, OwnAxes<V::Mask>) {
         let axes = self.dominant();
-        Mixed { negative: self.negative(s), axes, shear: self.shear(axes) }
+        (self.shear(axes), axes)
     }
 
     /// By the reciprocal: −0 has the sign of −inf there, and a comparison sees it.
     #[inline(always)]
-    fn negative(&self, s: V::Simd) -> [V::Mask; 3] {
+    pub(super) fn negative(&self, s: V::Simd) -> [V::Mask; 3] {
         let zero = V::splat(s, 0.0);
         [self.inv.x.lt(zero), self.inv.y.lt(zero), self.inv.z.lt(zero)]
     }
@@ -111,6 +116,16 @@ impl<V: SimdF32> Packet<V> {
     #[inline(always)]
     fn shear<A: Axes<V>>(&self, axes: A) -> Shear<V> {
         Shear::new(axes.last(self.origin), axes.last(self.dir), axes.last(self.inv))
+    }
+}
+
+impl<V: SimdF32> Coherent<V> {
+    /// Of rays with these signs of their directions.
+    #[inline(always)]
+    pub(super) fn new([x, y, z]: [bool; 3], axes: SameAxis, shear: Shear<V>) -> Self {
+        let near = [x.into(), y.into(), z.into()];
+        let far = [(!x).into(), (!y).into(), (!z).into()];
+        Coherent { near, far, axes, shear }
     }
 }
 

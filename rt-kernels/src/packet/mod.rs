@@ -6,14 +6,18 @@
 
 mod axes;
 mod boxes;
+mod buckets;
 mod frame;
+mod large;
 mod query;
 mod single;
 mod stream;
 
 pub use axes::{Axes, OwnAxes, SameAxis};
 pub use boxes::{Boxes, OwnBoxes};
+pub use buckets::Buckets;
 pub use frame::{Coherent, Frame, Mixed};
+pub use large::{Beam, Bounds, Chunk, Class, GroupQuery, LARGE, LargePacket, Reach};
 pub use query::{Any, Closest, Either, Query};
 pub use single::{Ask, Single};
 pub use stream::{Hits, Rays};
@@ -45,8 +49,19 @@ impl<V: SimdF32> Packet<V> {
     /// The rays from `first` on, as many as there are lanes; lanes beyond the last ray hit nothing.
     #[inline(always)]
     pub fn load(s: V::Simd, rays: &Rays, first: usize) -> Self {
-        let [origin, dir] = [load3(s, rays, 0, first), load3(s, rays, 3, first)];
-        Packet::new(s, origin, dir, load(s, rays, 6, first), load(s, rays, 7, first))
+        if rays.len() - first >= V::LANES {
+            Packet::load_with::<Whole>(s, rays, first)
+        } else {
+            Packet::load_with::<Part>(s, rays, first)
+        }
+    }
+
+    #[inline(always)]
+    fn load_with<L: Load>(s: V::Simd, rays: &Rays, first: usize) -> Self {
+        let [x, y, z, dx, dy, dz, tmin, tmax] = rays.components();
+        let origin = Vec3::new(L::load(s, x, first), L::load(s, y, first), L::load(s, z, first));
+        let dir = Vec3::new(L::load(s, dx, first), L::load(s, dy, first), L::load(s, dz, first));
+        Packet::new(s, origin, dir, L::load(s, tmin, first), L::load(s, tmax, first))
     }
 
     /// One ray in all lanes.
@@ -80,15 +95,29 @@ impl<V: SimdF32> Packet<V> {
     }
 }
 
-/// One component of the rays from `first` on; NaN in the lanes beyond the last ray.
-#[inline(always)]
-fn load<V: SimdF32>(s: V::Simd, rays: &Rays, k: usize, first: usize) -> V {
-    V::load_prefix(s, &rays.component(k)[first..], f32::NAN)
+/// One component of the rays from `first` on.
+trait Load {
+    fn load<V: SimdF32>(s: V::Simd, component: &[f32], first: usize) -> V;
 }
 
-#[inline(always)]
-fn load3<V: SimdF32>(s: V::Simd, rays: &Rays, k: usize, first: usize) -> Vec3<V> {
-    Vec3::new(load(s, rays, k, first), load(s, rays, k + 1, first), load(s, rays, k + 2, first))
+/// There are as many rays as lanes.
+struct Whole;
+
+/// There are fewer: NaN in the lanes beyond the last.
+struct Part;
+
+impl Load for Whole {
+    #[inline(always)]
+    fn load<V: SimdF32>(s: V::Simd, component: &[f32], first: usize) -> V {
+        V::load(s, &component[first..])
+    }
+}
+
+impl Load for Part {
+    #[inline(always)]
+    fn load<V: SimdF32>(s: V::Simd, component: &[f32], first: usize) -> V {
+        V::load_prefix(s, &component[first..], f32::NAN)
+    }
 }
 
 #[inline(always)]

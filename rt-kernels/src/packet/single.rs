@@ -30,6 +30,12 @@ impl<'a, V: SimdF32> Single<'a, V> {
         Single { limit: packet.tmax, hit: Hit { t, prim: Hits::NONE, u: 0.0, v: 0.0 }, ask }
     }
 
+    /// A hit already, or none if its number is [`Hits::NONE`] and `t` the limit.
+    #[inline(always)]
+    pub(crate) fn from_hit(s: V::Simd, hit: Hit, ask: Ask<'a>) -> Self {
+        Single { limit: V::splat(s, hit.t), hit, ask }
+    }
+
     /// The greatest `t` that still matters.
     #[inline(always)]
     pub fn bound(&self) -> f32 {

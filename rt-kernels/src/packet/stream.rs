@@ -54,10 +54,18 @@ impl Rays {
         Ray { origin: at(origin, i), dir: at(dir, i), tmin: tmin[i], tmax: tmax[i] }
     }
 
-    /// One component of all rays.
+    /// Becomes the rays of another batch at these places.
+    pub(super) fn gather(&mut self, from: &Rays, places: &[u32]) {
+        for (to, from) in self.components.iter_mut().zip(&from.components) {
+            to.clear();
+            to.extend(places.iter().map(|&place| from[place as usize]));
+        }
+    }
+
+    /// All components.
     #[inline(always)]
-    pub(super) fn component(&self, k: usize) -> &[f32] {
-        &self.components[k]
+    pub(super) fn components(&self) -> &[Vec<f32>; 8] {
+        &self.components
     }
 }
 

@@ -15,7 +15,9 @@
 
 mod catalogue;
 mod conservative;
+pub(crate) mod interval;
 pub mod knobs;
+pub(crate) mod pyramid;
 pub mod robust;
 mod shared_origin;
 mod signed;

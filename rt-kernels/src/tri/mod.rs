@@ -11,6 +11,7 @@
 
 mod across;
 mod catalogue;
+pub(crate) mod edge_volumes;
 pub mod knobs;
 pub(crate) mod method;
 mod moller_trumbore;
@@ -29,6 +30,7 @@ pub(crate) use method::with_kernel;
 pub use moller_trumbore::MollerTrumbore;
 pub use moller_trumbore_f64::MollerTrumboreF64;
 pub use plucker::Plucker;
+pub(crate) use record::OwnBoxLanes;
 pub use record::{BlockLanes, Record, RecordBlock, Records};
 pub use sweep::Triangles;
 pub use wald::Wald;

@@ -1,7 +1,7 @@
 //! What kernels keep of triangles, one by one and in lanes.
 
 use simd4::math::Vec3;
-use simd4::{Lanes, Simd, SimdF32, spec};
+use simd4::{Lanes, Simd, SimdF32, SimdInt, spec};
 
 use crate::geom::{Aabb, PADDING, Triangle};
 use crate::packet::{Axes, Boxes, OwnAxes, OwnBoxes, SameAxis};
@@ -147,42 +147,118 @@ fn block<S: Simd>(s: S, [x, y, z]: [f32; 3]) -> S::f32x4 {
 #[repr(C, align(64))]
 pub struct RecordBlock<const N: usize = 16> {
     numbers: [[[f32; N]; 3]; 3],
-    prim: [u32; N],
-    axis: [u32; N],
+    /// The triangles' numbers, and in the upper two bits the axes.
+    words: [u32; N],
 }
 
 impl<const N: usize> RecordBlock<N> {
     /// The number of records in a block.
     pub const LANES: usize = N;
 
+    /// The bits of a word below the axis.
+    const NUMBER: u32 = u32::MAX >> 2;
+
     /// As the number of a record that is nothing.
-    const NO_PRIM: u32 = u32::MAX;
+    const NO_PRIM: u32 = Self::NUMBER;
 
     /// At most so many records; the rest of the block is [nothing](Record::nothing).
     ///
     /// # Panics
     /// If there are more.
     pub fn new(records: &[Record]) -> Self {
-        let mut block = RecordBlock {
-            numbers: [[[f32::NAN; N]; 3]; 3],
-            prim: [Self::NO_PRIM; N],
-            axis: [0; N],
-        };
+        let (numbers, words) = ([[[f32::NAN; N]; 3]; 3], [Self::NO_PRIM; N]);
+        let mut block = RecordBlock { numbers, words };
         for (lane, record) in records.iter().enumerate() {
             for (rows, row) in block.numbers.iter_mut().zip(record.rows) {
                 for (numbers, number) in rows.iter_mut().zip(row.numbers) {
                     numbers[lane] = number;
                 }
             }
-            block.prim[lane] = record.rows[0].word;
-            block.axis[lane] = record.rows[1].word;
+            block.words[lane] = record.rows[0].word & Self::NUMBER | record.rows[1].word << 30;
         }
         block
     }
 
+    /// The number of records in it.
+    #[inline(always)]
+    pub(crate) fn count(&self) -> usize {
+        let mut count = 0;
+        while count < N && self.words[count] != Self::NO_PRIM {
+            count += 1;
+        }
+        count
+    }
+
     /// The numbers of the triangles that it was made of.
     pub(crate) fn prims(&self) -> impl Iterator<Item = u32> {
-        self.prim.iter().copied().filter(|&prim| prim != Self::NO_PRIM)
+        let numbers = self.words.iter().map(|word| word & Self::NUMBER);
+        numbers.filter(|&number| number != Self::NO_PRIM)
+    }
+}
+
+/// The own boxes of all triangles of a block, to be had one by one.
+pub(crate) struct OwnBoxLanes<B: SimdF32>([[B::Array; 2]; 3]);
+
+impl<B: SimdF32> OwnBoxLanes<B> {
+    /// Of triangles whose records are their corners.
+    #[inline(always)]
+    pub(crate) fn new<R: Records<B, Boxes = OwnBoxes<B>>>(s: B::Simd, records: &R) -> Self {
+        let OwnBoxes([[x0, x1], [y0, y1], [z0, z1]]) = records.own_boxes(s);
+        OwnBoxLanes([
+            [x0.to_array(), x1.to_array()],
+            [y0.to_array(), y1.to_array()],
+            [z0.to_array(), z1.to_array()],
+        ])
+    }
+
+    /// One record of the block, in all lanes.
+    #[inline(always)]
+    pub(crate) fn one<'a, const N: usize>(
+        &'a self,
+        block: &'a RecordBlock<N>,
+        lane: usize,
+    ) -> OneOf<'a, B, N> {
+        OneOf { block, own_boxes: self, lane: lane & (N - 1) & (B::LANES - 1) }
+    }
+}
+
+/// One record of a block in all lanes.
+pub(crate) struct OneOf<'a, B: SimdF32, const N: usize> {
+    block: &'a RecordBlock<N>,
+    own_boxes: &'a OwnBoxLanes<B>,
+    lane: usize,
+}
+
+impl<V: SimdF32, B: SimdF32, const N: usize> Records<V> for OneOf<'_, B, N> {
+    type Axes = SameAxis;
+    type Boxes = Aabb;
+
+    #[inline(always)]
+    fn get(&self, s: V::Simd, row: usize, k: usize) -> V {
+        V::splat(s, self.block.numbers[row][k % 3][self.lane])
+    }
+
+    #[inline(always)]
+    fn prim(&self, s: V::Simd) -> V::U32 {
+        V::U32::splat(s, self.block.words[self.lane] & RecordBlock::<N>::NUMBER)
+    }
+
+    #[inline(always)]
+    fn axes(&self, _: V::Simd) -> SameAxis {
+        SameAxis::new((self.block.words[self.lane] >> 30) as usize)
+    }
+
+    #[inline(always)]
+    fn own_boxes(&self, _: V::Simd) -> Aabb {
+        let [[x0, x1], [y0, y1], [z0, z1]] = &self.own_boxes.0;
+        let lane = self.lane;
+        Aabb {
+            axes: [
+                [x0.as_ref()[lane], x1.as_ref()[lane]],
+                [y0.as_ref()[lane], y1.as_ref()[lane]],
+                [z0.as_ref()[lane], z1.as_ref()[lane]],
+            ],
+        }
     }
 }
 
@@ -219,12 +295,14 @@ impl<V: SimdF32, const N: usize> Records<V> for BlockLanes<'_, N> {
 
     #[inline(always)]
     fn prim(&self, s: V::Simd) -> V::U32 {
-        self.load(s, &self.block.prim)
+        let words: V::U32 = self.load(s, &self.block.words);
+        words & V::U32::splat(s, RecordBlock::<N>::NUMBER)
     }
 
     #[inline(always)]
     fn axes(&self, s: V::Simd) -> OwnAxes<V::Mask> {
-        let axis: V::U32 = self.load(s, &self.block.axis);
+        let words: V::U32 = self.load(s, &self.block.words);
+        let axis = words.shr(30);
         OwnAxes([axis.eq(V::U32::splat(s, 0)), axis.eq(V::U32::splat(s, 1))])
     }
 

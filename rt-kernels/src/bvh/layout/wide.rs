@@ -14,7 +14,7 @@
 
 use std::ops::Range;
 
-use simd4::SimdF32;
+use simd4::{Simd, SimdF32};
 
 use super::MAX_SLOTS;
 use crate::bvh::build::{self, Content, Reference};
@@ -58,6 +58,13 @@ impl<const N: usize> WideNode<N> {
         lanes
             .filter(|(_, child)| *child != Child::NONE)
             .map(move |(lane, child)| (child, aabb(lane)))
+    }
+
+    /// The box of one child.
+    #[inline(always)]
+    pub(crate) fn aabb(&self, lane: usize) -> Aabb {
+        let [x, y, z] = &self.sides;
+        Aabb { axes: [[x[0][lane], x[1][lane]], [y[0][lane], y[1][lane]], [z[0][lane], z[1][lane]]] }
     }
 
     /// The box around those of all children.
@@ -171,6 +178,21 @@ impl<const N: usize> Wide<N> {
     #[inline(always)]
     pub(crate) fn cones(&self, slots: &Range<usize>) -> &[ConeRecord] {
         after(self.blocks.len() + self.spheres.len(), &self.cones, slots)
+    }
+
+    /// Sends for what is in these lanes of a node: it is on its way while something else is done.
+    #[inline(always)]
+    pub(crate) fn prefetch<S: Simd>(&self, s: S, node: &WideNode<N>, mut lanes: u32) {
+        let (nodes, blocks) = (self.nodes.as_ptr(), self.blocks.as_ptr());
+        while lanes != 0 {
+            let child = node.children[lanes.trailing_zeros() as usize & (N - 1)];
+            lanes &= lanes - 1;
+            // Without a branch, which would be a guess; what is not there is not sent for.
+            let first = (child.0 >> 4) as usize;
+            let block = blocks.wrapping_add(first);
+            let node = nodes.wrapping_add(first).cast();
+            s.prefetch(if child.0 & 15 == 0 { node } else { block });
+        }
     }
 
     /// The primitives in slots of a leaf.

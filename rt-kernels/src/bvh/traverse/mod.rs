@@ -2,6 +2,7 @@
 
 mod compared;
 pub mod heap;
+pub(crate) mod large;
 pub mod skip;
 pub mod wide;
 

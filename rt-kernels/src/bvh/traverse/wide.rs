@@ -21,9 +21,9 @@
 
 use simd4::{SimdF32, SimdMask};
 
-use crate::Stats;
+use crate::{Hit, Ray, Stats};
 use crate::bvh::layout::{Child, Wide, WideNode};
-use crate::packet::{Frame, Packet, Query, Single};
+use crate::packet::{Ask, Frame, Packet, Query, Single};
 use crate::quadric::{cone, sphere};
 use crate::slab::{BoxKernel, Crossing, Robust};
 use crate::tri::knobs::Division;
@@ -47,13 +47,34 @@ impl Stack {
     }
 }
 
-/// Hands the primitives of every leaf that the ray, which is in all N lanes of `packet`, may hit to
-/// their kernels, until the query is done.
+/// What one ray finds: nothing if its number is [`Hits::NONE`].
 #[inline(always)]
-pub fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
+pub(crate) fn trace<V: SimdF32, const N: usize>(
     s: V::Simd,
     wide: &Wide<N>,
     stack: &mut Stack,
+    ray: &Ray,
+    ask: Ask<'_>,
+    stats: &mut Stats,
+) -> Hit {
+    let packet = Packet::<V>::splat(s, ray);
+    let mut query = Single::new(&packet, ask);
+    // All lanes agree.
+    if let Ok(frame) = packet.frame(s) {
+        traverse(s, wide, stack, Child::ROOT, &packet, &frame, &mut query, stats);
+    }
+    query.hit()
+}
+
+/// Hands the primitives of every leaf below a child that the ray, which is in all N lanes of
+/// `packet`, may hit to their kernels, until the query is done.
+#[expect(clippy::too_many_arguments, reason = "strategies and state are arguments")]
+#[inline(always)]
+pub(crate) fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
+    s: V::Simd,
+    wide: &Wide<N>,
+    stack: &mut Stack,
+    mut child: Child,
     packet: &Packet<V>,
     frame: &F,
     query: &mut Single<'_, V>,
@@ -61,7 +82,6 @@ pub fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
 ) {
     let nodes = wide.nodes();
     let stack = &mut *stack.0;
-    let mut child = Child::ROOT;
     let mut top = 0;
     let mut visits = 0;
     'visits: loop {
@@ -72,7 +92,9 @@ pub fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
                 let crossing = Robust::<Division>::test(s, node, packet, frame, query.limit());
                 if let Some(Crossing { mask, enter }) = crossing {
                     let enter = enter.to_array();
-                    child = descend(node, mask.bitmask(), enter.as_ref(), stack, &mut top);
+                    let lanes = mask.bitmask();
+                    wide.prefetch(s, node, lanes);
+                    child = descend(node, lanes, enter.as_ref(), stack, &mut top);
                     continue;
                 }
             }

@@ -15,6 +15,25 @@ pub use avx512::Avx512;
 pub use sse2::Sse2;
 pub use sse41::Sse41;
 
+/// See [`Simd::prefetch`](crate::Simd::prefetch).
+#[inline(always)]
+fn prefetch<T>(at: *const T) {
+    #[cfg(target_arch = "x86")]
+    use core::arch::x86::{_MM_HINT_T0, _mm_prefetch};
+    #[cfg(target_arch = "x86_64")]
+    use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+
+    const LINE: usize = 64;
+    let first = at.cast::<i8>();
+    let mut offset = 0;
+    while offset < size_of::<T>() {
+        // SAFETY: whoever calls has the token of a level with SSE, and the hint takes any
+        // address.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(offset)) };
+        offset += LINE;
+    }
+}
+
 /// The best level that the build guarantees.
 pub(super) type Best = best::Best;
 

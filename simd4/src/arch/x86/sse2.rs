@@ -39,6 +39,11 @@ impl Simd for Sse2 {
     }
 
     #[inline(always)]
+    fn prefetch<T>(self, at: *const T) {
+        super::prefetch(at);
+    }
+
+    #[inline(always)]
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
         #[target_feature(enable = "sse2")]
         fn sse2<R>(f: impl FnOnce() -> R) -> R {

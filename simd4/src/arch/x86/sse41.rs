@@ -33,6 +33,11 @@ impl Simd for Sse41 {
     }
 
     #[inline(always)]
+    fn prefetch<T>(self, at: *const T) {
+        super::prefetch(at);
+    }
+
+    #[inline(always)]
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
         #[target_feature(enable = "sse4.1")]
         fn sse41<R>(f: impl FnOnce() -> R) -> R {

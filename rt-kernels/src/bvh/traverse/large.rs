@@ -1,0 +1,381 @@
+//! Up to 64 rays together over nodes of N children, from near to far.
+//!
+//! The children of a node are tested at once against all rays ([`beam`]); those that are left, ray by
+//! ray. Each child goes on with the rays that may hit it, a bit for each, and where it is entered
+//! first. What was found closer since then drops rays, and with the last of them the child. In a
+//! leaf, rays with a common origin are filtered by [`EdgeVolumes`] before the triangle test. Where one
+//! ray is left, it goes on [alone](super::wide).
+//!
+//! **The answer** is that of every other traversal ([why](crate#why-the-answer-is-one)): a ray is left
+//! out only where it misses the box by the slab test, or enters it after its bound, or where the
+//! triangle test would reject it; all hits are those of the one triangle test. To go on with more rays
+//! than need be, or in another order, changes nothing.
+//!
+//! **The stack** cannot overflow: of a node's children, at most N, one is gone on with, and the
+//! others are put on it.
+//!
+//! Source: Wald, Boulos, Shirley, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume
+//! Hierarchies", 2007; Overbeck, Ramamoorthi, Mark, "Large Ray Packets for Real-time Whitted Ray
+//! Tracing", 2008; Benthin, Wald, "Efficient Ray Traced Soft Shadows using Multi-Frusta Tracing", 2009.
+
+use std::ops::Range;
+
+use simd4::{Lanes, Simd, SimdF32, SimdMask};
+
+use super::wide::{self, Stack};
+use crate::Stats;
+use crate::bvh::layout::{Child, Wide, WideNode};
+use crate::packet::{Ask, Buckets, Chunk, Hits, LARGE, LargePacket, Rays, Single};
+use crate::quadric::{cone, sphere};
+use crate::slab::pyramid::{Culling, Sides};
+use crate::slab::{interval, robust};
+use crate::tri::edge_volumes::EdgeVolumes;
+use crate::tri::{self, BlockLanes, OwnBoxLanes, Watertight};
+
+/// The greatest difference of slopes for which a beam is narrow.
+const NARROW: f32 = 0.25;
+
+/// The most triangles of a block times the most registers.
+const MAX_PAIRS: usize = 8 * LARGE / 4;
+
+/// What a traversal needs besides the rays.
+pub(crate) struct Scratch {
+    chunk: Box<Chunk>,
+    buckets: Buckets,
+    large: Vec<Entry>,
+    single: Stack,
+}
+
+/// A child that is still to be visited.
+#[derive(Clone, Copy)]
+struct Entry {
+    child: Child,
+    /// No ray enters it before.
+    enter: f32,
+    /// The rays that may hit it.
+    rays: u64,
+}
+
+impl Scratch {
+    /// Room for any rays in that hierarchy.
+    pub(crate) fn new<const N: usize>(wide: &Wide<N>) -> Self {
+        let entry = Entry { child: Child::ROOT, enter: 0.0, rays: 0 };
+        let large = vec![entry; wide.depth() * (N - 1) + 1];
+        let (chunk, buckets) = (Box::new(Chunk::new()), Buckets::default());
+        Scratch { chunk, buckets, large, single: Stack::new(wide) }
+    }
+}
+
+/// Finds the closest hits of all rays or, with `any`, whichever is found first. `B` has a lane for
+/// each child.
+///
+/// Neighbours go together as long as they are alike. Others wait in [`Buckets`] for those of their
+/// class, wherever in the batch they are.
+#[inline(always)]
+pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, const N: usize>(
+    s: S,
+    wide: &Wide<N>,
+    rays: &Rays,
+    any: bool,
+    hits: &mut Hits,
+    stats: &mut Stats,
+) {
+    let Scratch { mut chunk, mut buckets, mut large, mut single } = Scratch::new(wide);
+    let mut first = 0;
+    loop {
+        let waited = buckets.take(rays, first >= rays.len());
+        if waited {
+            chunk.load::<S::f32s>(s, buckets.rays(), 0);
+        } else if first < rays.len() {
+            chunk.load::<S::f32s>(s, rays, first);
+            first += LARGE;
+            if chunk.is_mixed() {
+                chunk.store(hits, first - LARGE);
+                buckets.put(&mut chunk, first - LARGE);
+                continue;
+            }
+        } else {
+            break;
+        }
+        while let Some(class) = chunk.next_class() {
+            let packet = LargePacket::new(&mut chunk, class, any);
+            let (large, single) = (&mut *large, &mut single);
+            Traversal { s, wide, large, single, packet, stats }.trace::<B>(class.rays);
+        }
+        if waited {
+            chunk.scatter(hits, buckets.places());
+        } else {
+            chunk.store(hits, first - LARGE);
+        }
+    }
+}
+
+/// Rays of one class on their way through a hierarchy.
+pub(super) struct Traversal<'a, S: Simd, const N: usize> {
+    pub(super) s: S,
+    pub(super) wide: &'a Wide<N>,
+    large: &'a mut [Entry],
+    single: &'a mut Stack,
+    pub(super) packet: LargePacket<'a>,
+    pub(super) stats: &'a mut Stats,
+}
+
+impl<S: Simd, const N: usize> Traversal<'_, S, N> {
+    /// Finds what those rays hit.
+    #[inline(always)]
+    fn trace<B: SimdF32<Simd = S>>(&mut self, rays: u64) {
+        let beam = self.packet.beam::<S::f32s>(self.s);
+        let [x, y] = beam.slopes;
+        let narrow = x[1] - x[0] <= NARROW && y[1] - y[0] <= NARROW;
+        if narrow && beam.has_apex() {
+            self.run::<B, Pyramid>(&Culling::new(&beam), rays);
+        } else {
+            self.run::<B, Spread>(&Culling::new(&beam), rays);
+        }
+    }
+
+    #[inline(always)]
+    fn run<B: SimdF32<Simd = S>, W: Way>(&mut self, culling: &Culling, rays: u64) {
+        let wide = self.wide;
+        let mut next = Entry { child: Child::ROOT, enter: 0.0, rays };
+        let mut top = 0;
+        loop {
+            let (rays, limit) = self.active(&next);
+            let found = next.child.find();
+            let few = if found.is_ok() { W::FEW } else { W::FEW_IN_LEAF };
+            match found {
+                _ if rays.count_ones() <= few => self.one_by_one::<B>(next.child, rays),
+                Err(slots) => self.leaf::<B>(culling, &slots, rays),
+                Ok(node) => {
+                    let Some(node) = wide.nodes().get(node) else { break };
+                    self.stats.node_visits += 1;
+                    let Children { mut lanes, enter, rays } =
+                        W::children::<S, B, N>(self, culling, node, rays, limit);
+                    let first = top;
+                    while lanes != 0 {
+                        let lane = lanes.trailing_zeros() as usize & (N - 1);
+                        lanes &= lanes - 1;
+                        let (child, enter) = (node.children[lane], enter.as_ref()[lane]);
+                        // The nearer the higher.
+                        let mut at = top;
+                        while at > first && self.large[at - 1].enter < enter {
+                            self.large[at] = self.large[at - 1];
+                            at -= 1;
+                        }
+                        self.large[at] = Entry { child, enter, rays: rays[lane] };
+                        top += 1;
+                    }
+                }
+            }
+            if top == 0 {
+                break;
+            }
+            top -= 1;
+            next = self.large[top];
+        }
+    }
+
+    /// The rays of an entry to which it still matters, and the greatest `t` that does to any.
+    #[inline(always)]
+    fn active(&self, entry: &Entry) -> (u64, f32) {
+        let s = self.s;
+        let enter = S::f32s::splat(s, entry.enter);
+        let mut greatest = S::f32s::splat(s, f32::NEG_INFINITY);
+        let mut rays = 0;
+        for g in 0..self.packet.groups::<S::f32s>() {
+            let limit = self.packet.limit::<S::f32s>(s, g);
+            rays |= u64::from(limit.ge(enter).bitmask()) << (g * S::LANES % LARGE);
+            greatest = greatest.max(limit);
+        }
+        (rays & entry.rays, greatest.reduce_max())
+    }
+
+    /// Tests rays with one origin against the primitives of a leaf.
+    #[inline(always)]
+    fn leaf<B: SimdF32<Simd = S>>(&mut self, culling: &Culling, slots: &Range<usize>, rays: u64) {
+        let (s, wide) = (self.s, self.wide);
+        for block in wide.blocks(slots) {
+            let lanes = BlockLanes::new(block, 0);
+            let volumes = EdgeVolumes::<B>::new(s, &lanes, culling.beam.axes, culling.apex());
+            // The pairs of a triangle and a register that are not certain to miss each other.
+            let mut pairs = [(0, 0); MAX_PAIRS];
+            let mut count = 0;
+            for lane in 0..block.count() {
+                let triangle = volumes.spread::<S::f32s>(s, lane);
+                for g in 0..self.packet.groups::<S::f32s>() {
+                    let rays = of_group::<S>(rays, g);
+                    if rays == 0 {
+                        continue;
+                    }
+                    self.stats.triangle_tests += S::LANES as u64;
+                    let [x, y] = self.packet.slopes(s, g);
+                    pairs[count % MAX_PAIRS] = (lane as u8, g as u8);
+                    count += usize::from(triangle.may_hit(x, y).bitmask() & rays != 0);
+                }
+            }
+            if count == 0 {
+                continue;
+            }
+            let own_boxes = OwnBoxLanes::<B>::new(s, &lanes);
+            for &(lane, g) in &pairs[..count.min(MAX_PAIRS)] {
+                let (record, g) = (own_boxes.one(block, lane.into()), g.into());
+                let (packet, frame) = self.packet.group::<S::f32s>(s, g);
+                let mut query = self.packet.query::<S::f32s>(s, g);
+                tri::intersect::<Watertight, _, _, _, _>(s, &record, &packet, &frame, &mut query);
+            }
+        }
+        for record in wide.spheres(slots) {
+            for g in 0..self.packet.groups::<S::f32s>() {
+                if of_group::<S>(rays, g) == 0 {
+                    continue;
+                }
+                self.stats.sphere_tests += S::LANES as u64;
+                let (packet, frame) = self.packet.group::<S::f32s>(s, g);
+                sphere::intersect(s, record, &packet, &frame, &mut self.packet.query(s, g));
+            }
+        }
+        for record in wide.cones(slots) {
+            for g in 0..self.packet.groups::<S::f32s>() {
+                if of_group::<S>(rays, g) == 0 {
+                    continue;
+                }
+                self.stats.cone_tests += S::LANES as u64;
+                let (packet, frame) = self.packet.group::<S::f32s>(s, g);
+                cone::intersect(s, record, &packet, &frame, &mut self.packet.query(s, g));
+            }
+        }
+    }
+
+    /// Rays go on from a child, each by itself.
+    #[inline(always)]
+    fn one_by_one<B: SimdF32<Simd = S>>(&mut self, child: Child, mut rays: u64) {
+        let s = self.s;
+        while rays != 0 {
+            let ray = rays.trailing_zeros() as usize;
+            rays &= rays - 1;
+            let (packet, frame) = self.packet.ray::<B>(s, ray);
+            let ask = if self.packet.any() { Ask::Any } else { Ask::Closest };
+            let mut query = Single::from_hit(s, self.packet.hit(ray), ask);
+            let (stack, stats) = (&mut *self.single, &mut *self.stats);
+            wide::traverse(s, self.wide, stack, child, &packet, &frame, &mut query, stats);
+            self.packet.set_hit(ray, query.hit());
+        }
+    }
+}
+
+/// The children of a node that some rays may hit.
+struct Children<B: SimdF32, const N: usize> {
+    lanes: u32,
+    /// No ray enters a child before.
+    enter: B::Array,
+    /// The rays, by child.
+    rays: [u64; N],
+}
+
+/// How rays are tested against the children of a node.
+trait Way {
+    /// The most rays that go on one by one below a node.
+    const FEW: u32;
+    /// The most rays that are tested one by one in a leaf.
+    const FEW_IN_LEAF: u32;
+
+    /// The children that some of the rays may hit with `t <= limit`, which is the greatest of all.
+    fn children<S: Simd, B: SimdF32<Simd = S>, const N: usize>(
+        of: &mut Traversal<'_, S, N>,
+        culling: &Culling,
+        node: &WideNode<N>,
+        rays: u64,
+        limit: f32,
+    ) -> Children<B, N>;
+}
+
+/// Rays with one origin, close together: all children at once against all rays, then what is left
+/// child by child.
+struct Pyramid;
+
+impl Way for Pyramid {
+    const FEW: u32 = 2;
+    const FEW_IN_LEAF: u32 = 4;
+
+    #[inline(always)]
+    fn children<S: Simd, B: SimdF32<Simd = S>, const N: usize>(
+        of: &mut Traversal<'_, S, N>,
+        culling: &Culling,
+        node: &WideNode<N>,
+        rays: u64,
+        limit: f32,
+    ) -> Children<B, N> {
+        let s = of.s;
+        let found = culling.candidates::<B, _>(s, node, limit);
+        let sides = Sides::new(&found);
+        let mut left = found.mask.bitmask();
+        of.wide.prefetch(s, node, left);
+        let mut children = Children { lanes: 0, enter: found.enter.to_array(), rays: [0; N] };
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & (N - 1);
+            left &= left - 1;
+            let mut passing = 0;
+            for g in 0..of.packet.groups::<S::f32s>() {
+                if of_group::<S>(rays, g) == 0 {
+                    continue;
+                }
+                of.stats.box_tests += S::LANES as u64;
+                let may_hit = sides.may_hit::<S::f32s>(s, lane, of.packet.reach(s, g));
+                passing |= u64::from(may_hit.bitmask()) << (g * S::LANES % LARGE);
+            }
+            passing &= rays;
+            children.rays[lane] = passing;
+            children.lanes |= u32::from(passing != 0) << lane;
+        }
+        children
+    }
+}
+
+/// Rays that start or go anywhere in their class: as far as intervals tell, all children at once, then
+/// what is left child by child.
+struct Spread;
+
+impl Way for Spread {
+    const FEW: u32 = 16;
+    const FEW_IN_LEAF: u32 = LARGE as u32;
+
+    #[inline(always)]
+    fn children<S: Simd, B: SimdF32<Simd = S>, const N: usize>(
+        of: &mut Traversal<'_, S, N>,
+        culling: &Culling,
+        node: &WideNode<N>,
+        rays: u64,
+        limit: f32,
+    ) -> Children<B, N> {
+        let s = of.s;
+        let (mask, enter) = interval::candidates::<B, _>(s, node, culling.beam, limit);
+        let mut left = mask.bitmask();
+        of.wide.prefetch(s, node, left);
+        let mut children = Children { lanes: 0, enter: enter.to_array(), rays: [0; N] };
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & (N - 1);
+            left &= left - 1;
+            let aabb = node.aabb(lane);
+            let mut passing = 0;
+            for g in 0..of.packet.groups::<S::f32s>() {
+                if of_group::<S>(rays, g) == 0 {
+                    continue;
+                }
+                of.stats.box_tests += S::LANES as u64;
+                let (packet, frame) = of.packet.group::<S::f32s>(s, g);
+                let may_hit = robust::may_hit(s, &aabb, &packet, &frame, packet.tmax);
+                passing |= u64::from(may_hit.bitmask()) << (g * S::LANES % LARGE);
+            }
+            passing &= rays;
+            children.rays[lane] = passing;
+            children.lanes |= u32::from(passing != 0) << lane;
+        }
+        children
+    }
+}
+
+/// The rays of a register, from its first lane on.
+#[inline(always)]
+fn of_group<S: Simd>(rays: u64, g: usize) -> u32 {
+    (rays >> (g * S::LANES % LARGE)) as u32 & u32::MAX >> (32 - S::LANES)
+}

@@ -1,0 +1,134 @@
+//! Which rays of a common origin may hit a triangle: a filter before the [`Watertight`] test.
+//!
+//! **Decides** what is certain. With a, b, c the corners as the test has them, seen from the origin
+//! with the dominant axis as z, and (x, y) a ray's slopes, the test's edge function of a is the volume
+//! `(c × b) · (x, y, 1)`, up to rounding. `c × b` is the same for all rays from that origin: three
+//! fused operations less than six subtractions and products are left for each edge and ray. A ray is
+//! left out only if one edge function is surely negative and another surely positive: that is how the
+//! test rejects. All others are for the test to decide, so the answer is its own.
+//!
+//! **Precision.** With u = 2^-24 and M the greatest coordinate of the three corners, and slopes of at
+//! most 1: a sheared coordinate is off by at most 3u M of a value of at most 2M, hence the test's edge
+//! function by 24u M² (before its own rounding, which does not change a sign). The cross product is
+//! off by 4u M² on each axis, hence its product with (x, y, 1) by 12u M², and by 14u M² more for the
+//! roundings of that. What is beyond 64u M² has the right sign. Coordinates of up to 2^40 are within
+//! the range, and where M² vanishes so do all differences: the bound is no less than 2^-100.
+//!
+//! **Degenerate inputs.** A triangle without area is never certain. A lane without a triangle has
+//! NaNs and is always left out.
+//!
+//! **Operations**, for each ray: 6 fused multiply-adds, 2 minima, 2 maxima, 2 comparisons.
+//!
+//! Source: the volumes are those of Amanatides and Choi, "Ray Tracing Triangular Meshes", 1995; the
+//! bound is worked out here.
+
+use simd4::math::Vec3;
+use simd4::SimdF32;
+
+use super::Records;
+
+/// A bound of both tests' errors, times the square of the greatest coordinate.
+const BOUND: f32 = 1.0 / (1 << 18) as f32;
+
+/// The least bound.
+const LEAST_BOUND: f32 = 1.0 / (1u128 << 100) as f32;
+
+/// The edge volumes of triangles in lanes, to be spread over rays.
+pub(crate) struct EdgeVolumes<B: SimdF32> {
+    /// The cross products of b and c, c and a, a and b.
+    normals: [[B::Array; 3]; 3],
+    bound: B::Array,
+}
+
+impl<B: SimdF32> EdgeVolumes<B> {
+    /// Of triangles whose records are their corners, seen from `origin`; both with the axes in that
+    /// order.
+    #[inline(always)]
+    pub(crate) fn new<R: Records<B>>(
+        s: B::Simd,
+        records: &R,
+        axes: [usize; 3],
+        origin: [f32; 3],
+    ) -> Self {
+        let a = relative(s, records, 0, axes, origin);
+        let b = relative(s, records, 1, axes, origin);
+        let c = relative(s, records, 2, axes, origin);
+        let greatest = greatest(a).max(greatest(b)).max(greatest(c));
+        let bound = greatest * greatest * B::splat(s, BOUND);
+        EdgeVolumes {
+            normals: [cross(c, b), cross(a, c), cross(b, a)],
+            bound: bound.max(B::splat(s, LEAST_BOUND)).to_array(),
+        }
+    }
+
+    /// The triangle in that lane, for many rays.
+    #[inline(always)]
+    pub(crate) fn spread<V: SimdF32<Simd = B::Simd>>(&self, s: V::Simd, lane: usize) -> Spread<V> {
+        let lane = lane & (B::LANES - 1);
+        let [a, b, c] = &self.normals;
+        Spread {
+            normals: [
+                splat::<B, V>(s, a, lane),
+                splat::<B, V>(s, b, lane),
+                splat::<B, V>(s, c, lane),
+            ],
+            bound: V::splat(s, self.bound.as_ref()[lane]),
+        }
+    }
+}
+
+/// The edge volumes of one triangle in all lanes.
+pub(crate) struct Spread<V> {
+    normals: [Vec3<V>; 3],
+    bound: V,
+}
+
+impl<V: SimdF32> Spread<V> {
+    /// The rays, by their slopes, that may hit the triangle.
+    #[inline(always)]
+    pub(crate) fn may_hit(&self, x: V, y: V) -> V::Mask {
+        let [a, b, c] = self.normals;
+        let (a, b, c) = (volume(a, x, y), volume(b, x, y), volume(c, x, y));
+        a.min(b).min(c).ge(-self.bound) | a.max(b).max(c).le(self.bound)
+    }
+}
+
+#[inline(always)]
+fn volume<V: SimdF32>(n: Vec3<V>, x: V, y: V) -> V {
+    x.mul_add_fast(n.x, y.mul_add_fast(n.y, n.z))
+}
+
+#[inline(always)]
+fn relative<B: SimdF32, R: Records<B>>(
+    s: B::Simd,
+    records: &R,
+    row: usize,
+    [kx, ky, kz]: [usize; 3],
+    [x, y, z]: [f32; 3],
+) -> Vec3<B> {
+    let point =
+        Vec3::new(records.get(s, row, kx), records.get(s, row, ky), records.get(s, row, kz));
+    point - Vec3::splat(s, [x, y, z])
+}
+
+#[inline(always)]
+fn greatest<B: SimdF32>(v: Vec3<B>) -> B {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
+}
+
+#[inline(always)]
+fn cross<B: SimdF32>(a: Vec3<B>, b: Vec3<B>) -> [B::Array; 3] {
+    let x = a.y.mul_sub_fast(b.z, a.z * b.y);
+    let y = a.z.mul_sub_fast(b.x, a.x * b.z);
+    let z = a.x.mul_sub_fast(b.y, a.y * b.x);
+    [x.to_array(), y.to_array(), z.to_array()]
+}
+
+#[inline(always)]
+fn splat<B: SimdF32, V: SimdF32<Simd = B::Simd>>(
+    s: V::Simd,
+    [x, y, z]: &[B::Array; 3],
+    lane: usize,
+) -> Vec3<V> {
+    Vec3::splat(s, [x.as_ref()[lane], y.as_ref()[lane], z.as_ref()[lane]])
+}
