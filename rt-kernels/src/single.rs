@@ -90,11 +90,9 @@ fn batch<const N: usize>(
 {
     let mut done = Stats::default();
     match exec.packet {
-        PacketSize::Single => one_by_one(
-            wide,
-            exec.level,
-            Work::Batch { rays, any, hits, stats: &mut done },
-        ),
+        PacketSize::Single => {
+            one_by_one(wide, exec.level, Work::Batch { rays, any, hits, stats: &mut done })
+        }
         _ => dispatch!(exec.level, s => large::trace::<_, <Wide<N> as Width>::Vector<_>, N>(
             s, wide, rays, any, hits, &mut done
         )),

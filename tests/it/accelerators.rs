@@ -56,7 +56,11 @@ fn one_answer_with(
         // What a level and a packet size change does not depend on the builder.
         let execs = match (plan.builder == Builder::default(), plan.layout) {
             (true, Layout::Skip) => ways(),
-            (true, _) => Level::available().map(Exec::at).collect(),
+            // Packets of four and of eight come to large ones.
+            (true, _) => ways()
+                .into_iter()
+                .filter(|exec| !matches!(exec.packet, PacketSize::Four | PacketSize::Eight))
+                .collect(),
             _ => vec![plainest(), widest()],
         };
         for exec in execs {

@@ -1,4 +1,4 @@
-//! What is wide nodes' own: single rays, the nearest child first, and ties among lanes.
+//! What is wide nodes' own: the nearest child first, ties among lanes, and rays that go together.
 
 use glam::Vec3;
 use rt_kernels::geom::{Sphere, Triangle};
@@ -92,7 +92,7 @@ fn equal_distances_go_to_the_lowest_number() {
     }
 }
 
-/// Wide nodes are for single rays and the default triangle test.
+/// Wide nodes are for single rays and large packets, and the default triangle test.
 #[test]
 fn a_choice_comes_to_what_there_is() {
     let scene = Primitives { triangles: vec![screen(0.0)], ..Primitives::default() };
@@ -110,10 +110,15 @@ fn a_choice_comes_to_what_there_is() {
                 Level::Scalar(_) => PacketSize::Four,
                 _ => PacketSize::Eight,
             };
-            for (packet, lanes) in
-                [(PacketSize::Four, PacketSize::Four), (PacketSize::Eight, eight)]
-            {
-                let want = if WIDE.contains(&layout) { PacketSize::Single } else { lanes };
+            let wide = WIDE.contains(&layout);
+            for (packet, skip, large) in [
+                (PacketSize::Single, PacketSize::Single, PacketSize::Single),
+                (PacketSize::Four, PacketSize::Four, PacketSize::Large),
+                (PacketSize::Eight, eight, PacketSize::Large),
+                (PacketSize::Native, PacketSize::Native, PacketSize::Large),
+                (PacketSize::Large, PacketSize::Native, PacketSize::Large),
+            ] {
+                let want = if wide { large } else { skip };
                 let exec = bvh.exec(Exec { level, packet });
                 assert_eq!((exec.level, exec.packet), (level, want), "{plan:?}");
             }

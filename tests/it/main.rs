@@ -6,6 +6,7 @@ mod builders;
 mod closest_point;
 mod cone;
 mod kd;
+mod large;
 mod layouts;
 mod padding;
 mod pictures;

@@ -5,14 +5,12 @@ use rt_kernels::{Accelerator, Builder, Exec, Hit, Hits, Join, KdBuilder, KdPlan,
 use rt_kernels::{PacketSize, Plan, Rays, Stats};
 use simd4::Level;
 
-/// Every level of this machine with every packet size. (A single ray goes the same way at every
-/// level: once is enough.)
+/// Every level of this machine with every packet size.
 pub fn ways() -> Vec<Exec> {
-    let first = Level::available().next().expect("scalar is always there");
-    let packets = [PacketSize::Native, PacketSize::Four, PacketSize::Eight];
-    let lanes = Level::available()
-        .flat_map(|level| packets.into_iter().map(move |packet| Exec { level, packet }));
-    [Exec { level: first, packet: PacketSize::Single }].into_iter().chain(lanes).collect()
+    let packets = [PacketSize::Single, PacketSize::Native, PacketSize::Four, PacketSize::Eight];
+    Level::available()
+        .flat_map(|level| packets.into_iter().map(move |packet| Exec { level, packet }))
+        .collect()
 }
 
 /// Every hierarchy that there is for a triangle test.

@@ -18,9 +18,10 @@ pub(crate) struct MachineArgs {
     #[arg(long, value_name = "LEVEL", default_value = "auto",
           value_parser = level_names())]
     isa: String,
-    /// Rays that go together: native is as many as a register has lanes.
+    /// Rays that go together: native is up to 64 over wide nodes and elsewhere as many as a register
+    /// has lanes.
     #[arg(long, value_name = "SIZE", default_value = "native",
-          value_parser = ["native", "1", "4", "8"])]
+          value_parser = ["native", "1", "4", "8", "64"])]
     packet: String,
     /// Threads to use [default: one a core].
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -41,8 +42,8 @@ pub(crate) struct BuildArgs {
     /// How the BVH is built.
     #[arg(long, value_enum, value_name = "NAME", default_value_t)]
     builder: BuilderArg,
-    /// How the BVH lies in memory. Wide nodes are for rays one by one, whatever packets are asked
-    /// for, and for the watertight triangle test alone: others keep skip.
+    /// How the BVH lies in memory. Wide nodes are for rays one by one and for 64 together, not for
+    /// packets of 4 and 8, and for the watertight triangle test alone: others keep skip.
     #[arg(long, value_enum, value_name = "NAME", default_value_t)]
     layout: LayoutArg,
 }
@@ -76,6 +77,7 @@ impl MachineArgs {
             "1" => PacketSize::Single,
             "4" => PacketSize::Four,
             "8" => PacketSize::Eight,
+            "64" => PacketSize::Large,
             _ => PacketSize::Native,
         };
         Ok(Exec { level, packet })
@@ -163,13 +165,13 @@ enum BuilderArg {
 
 #[derive(Clone, Copy, Default, ValueEnum)]
 enum LayoutArg {
-    /// Depth first with skip pointers: for packets.
+    /// Eight children a node: for all rays.
     #[default]
-    Skip,
-    /// Four children a node: for single rays.
-    Bvh4,
-    /// Eight children a node: for single rays.
     Bvh8,
+    /// Four children a node.
+    Bvh4,
+    /// Depth first with skip pointers: for packets of 4 and 8.
+    Skip,
 }
 
 /// What `--isa` may be: a name that is no level at all is a mistake in the command line.

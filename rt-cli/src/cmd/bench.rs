@@ -46,7 +46,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Error> {
         let (mut builts, mut ways) = (Vec::new(), Vec::new());
         for built in &worlds {
             let world = &built.world;
-            for &exec in execs.iter().filter(|&&exec| compared.shows(world, exec)) {
+            for &exec in &execs {
                 builts.push(built);
                 ways.push(Way { world, exec });
             }
@@ -169,12 +169,6 @@ impl Compared {
             (_, _, true) => Compared::Layouts,
             _ => Compared::Levels,
         }
-    }
-
-    /// Whether a world and a way to trace it make a row. Where layouts are compared there is none for
-    /// packets that come to single rays, which have one.
-    fn shows(self, world: &World, exec: Exec) -> bool {
-        self != Compared::Layouts || (world.exec(exec).packet == PacketSize::Single) == (exec.packet == PacketSize::Single)
     }
 
     /// The columns' names.

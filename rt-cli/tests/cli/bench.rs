@@ -122,7 +122,7 @@ fn builders_are_told_side_by_side() {
     }
 }
 
-/// With each kind of rays the skip array, ray by ray and in packets, and then wide nodes.
+/// With each kind of rays every layout, ray by ray and in packets.
 #[test]
 fn layouts_are_told_side_by_side() {
     let scratch = Scratch::with_room();
@@ -132,14 +132,15 @@ fn layouts_are_told_side_by_side() {
     let rows = json["rows"].as_array().unwrap();
     let keys = ["kind", "layout", "packet"];
     let told: Vec<_> = rows.iter().map(|row| keys.map(|key| row[key].as_str().unwrap())).collect();
-    for (kind, told) in ["primary", "diffuse"].iter().zip(told.chunks(4)) {
-        assert_eq!(told[0], [kind, "skip", "1"]);
-        assert_eq!(told[1][..2], [*kind, "skip"]);
-        assert!(told[1][2] != "1", "{table}");
-        assert_eq!(told[2..], [[kind, "bvh4", "1"], [kind, "bvh8", "1"]]);
+    for (kind, told) in ["primary", "diffuse"].iter().zip(told.chunks(6)) {
+        let wide = ["bvh8", "bvh4"].map(|layout| [[kind, layout, "1"], [kind, layout, "64"]]);
+        assert_eq!(told[..4], wide.concat());
+        assert_eq!(told[4], [kind, "skip", "1"]);
+        assert_eq!(told[5][..2], [*kind, "skip"]);
+        assert!(told[5][2] != "1", "{table}");
     }
     let lines: Vec<_> = table.lines().collect();
-    assert_eq!((lines.len(), rows.len()), (9, 8), "{table}");
+    assert_eq!((lines.len(), rows.len()), (13, 12), "{table}");
     let width = lines[0].chars().count();
     assert!(width <= 80 && lines.iter().all(|line| line.chars().count() == width), "{table}");
     for (line, told) in lines[1..].iter().zip(told) {
@@ -153,7 +154,7 @@ fn layouts_are_told_side_by_side() {
 fn builder_and_layout_can_be_chosen() {
     let scratch = Scratch::with_room();
     for (flag, key, value) in
-        [("--builder", "builder", "insertion"), ("--layout", "layout", "bvh8")]
+        [("--builder", "builder", "insertion"), ("--layout", "layout", "skip")]
     {
         let args = ["bench", "room.obj", flag, value, "--json", "-"];
         let json = scratch.rt(&[&args, &QUICK[..]].concat()).exits(0).json();

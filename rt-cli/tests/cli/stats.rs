@@ -141,14 +141,15 @@ fn flags_cost_and_save_rays() {
     assert_eq!(rays(&["--integrator", "eyelight"]), [600, 0, 0]);
 }
 
-/// Wide nodes are for single rays and the watertight test, and the program says so.
+/// Wide nodes are for single rays and large packets and for the watertight test, and the program
+/// says so.
 #[test]
 fn what_a_layout_comes_to_is_told() {
     let scratch = Scratch::with_room();
     for layout in ["bvh4", "bvh8"] {
         let flags = ["--layout", layout, "--packet", "8"];
         let wide = stats(&scratch, "room.obj", &flags);
-        assert_eq!((&wide["layout"], &wide["packet"]), (&layout.into(), &"1".into()));
+        assert_eq!((&wide["layout"], &wide["packet"]), (&layout.into(), &"64".into()));
         let wald = stats(&scratch, "room.obj", &[&flags[..], &["--kernel", "wald"]].concat());
         assert_eq!(wald["layout"], "skip");
     }
@@ -159,8 +160,11 @@ fn what_a_layout_comes_to_is_told() {
 #[test]
 fn packets_are_told_by_their_number_of_rays() {
     let scratch = Scratch::new();
-    for size in ["1", "4", "8"] {
-        assert_eq!(stats(&scratch, "spd:balls:0", &["--packet", size])["packet"], size);
+    for (layout, sizes) in [("skip", ["1", "4", "8"]), ("bvh8", ["1", "64", "64"])] {
+        for (asked, size) in ["1", "4", "8"].iter().zip(sizes) {
+            let flags = ["--layout", layout, "--packet", asked];
+            assert_eq!(stats(&scratch, "spd:balls:0", &flags)["packet"], size);
+        }
     }
 }
 

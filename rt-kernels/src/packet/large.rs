@@ -56,9 +56,9 @@ pub struct Class {
     axes: SameAxis,
 }
 
-impl Chunk {
+impl Default for Chunk {
     /// No rays.
-    pub fn new() -> Self {
+    fn default() -> Self {
         let column = [0.0; LARGE];
         Chunk {
             count: 0,
@@ -74,7 +74,9 @@ impl Chunk {
             left: 0,
         }
     }
+}
 
+impl Chunk {
     /// Takes the rays from `first` on.
     #[inline(always)]
     pub fn load<V: SimdF32>(&mut self, s: V::Simd, rays: &Rays, first: usize) {

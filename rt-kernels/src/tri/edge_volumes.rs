@@ -22,8 +22,8 @@
 //! Source: the volumes are those of Amanatides and Choi, "Ray Tracing Triangular Meshes", 1995; the
 //! bound is worked out here.
 
-use simd4::math::Vec3;
 use simd4::SimdF32;
+use simd4::math::Vec3;
 
 use super::Records;
 

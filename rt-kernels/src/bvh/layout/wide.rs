@@ -64,7 +64,9 @@ impl<const N: usize> WideNode<N> {
     #[inline(always)]
     pub(crate) fn aabb(&self, lane: usize) -> Aabb {
         let [x, y, z] = &self.sides;
-        Aabb { axes: [[x[0][lane], x[1][lane]], [y[0][lane], y[1][lane]], [z[0][lane], z[1][lane]]] }
+        Aabb {
+            axes: [[x[0][lane], x[1][lane]], [y[0][lane], y[1][lane]], [z[0][lane], z[1][lane]]],
+        }
     }
 
     /// The box around those of all children.

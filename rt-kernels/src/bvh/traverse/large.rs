@@ -61,7 +61,7 @@ impl Scratch {
     pub(crate) fn new<const N: usize>(wide: &Wide<N>) -> Self {
         let entry = Entry { child: Child::ROOT, enter: 0.0, rays: 0 };
         let large = vec![entry; wide.depth() * (N - 1) + 1];
-        let (chunk, buckets) = (Box::new(Chunk::new()), Buckets::default());
+        let (chunk, buckets) = (Box::new(Chunk::default()), Buckets::default());
         Scratch { chunk, buckets, large, single: Stack::new(wide) }
     }
 }

@@ -21,13 +21,13 @@
 
 use simd4::{SimdF32, SimdMask};
 
-use crate::{Hit, Ray, Stats};
 use crate::bvh::layout::{Child, Wide, WideNode};
 use crate::packet::{Ask, Frame, Packet, Query, Single};
 use crate::quadric::{cone, sphere};
 use crate::slab::{BoxKernel, Crossing, Robust};
 use crate::tri::knobs::Division;
 use crate::tri::{self, BlockLanes, Watertight};
+use crate::{Hit, Ray, Stats};
 
 /// Children that are still to be visited.
 pub struct Stack(Vec<Entry>);

@@ -1,0 +1,130 @@
+//! What is large packets' own: rays of one origin, filtered together, and rays that wait for others.
+
+use glam::Vec3;
+use proptest::prelude::*;
+use rt_kernels::{Accelerator, Brute, Bvh, Exec, Hits, Layout, PacketSize, Plan, Primitives};
+use rt_kernels::{Ray, Rays, Sequential, Stats};
+use rt_tests::random::Random;
+use rt_tests::strategies::{RayPlan, config, ray, scene};
+use rt_tests::trace::{any, closest_bits};
+use rt_tests::{aim, mesh::Mesh};
+use simd4::Level;
+
+const WIDE: [Layout; 2] = [Layout::Bvh4, Layout::Bvh8];
+
+/// Checks every level and both widths against brute force, one ray at a time.
+fn one_answer(scene: &Primitives, rays: &Rays) {
+    let first = Level::available().next().expect("scalar is always there");
+    let brute = Brute::build(scene).expect("in range");
+    let want = closest_bits(&brute, Exec { level: first, packet: PacketSize::Single }, rays);
+    for layout in WIDE {
+        let plan = Plan { layout, ..Plan::default() };
+        let bvh = Bvh::build_with(scene, plan, &Sequential).expect("in range");
+        for level in Level::available() {
+            let exec = Exec { level, packet: PacketSize::Large };
+            let (got, found) = (closest_bits(&bvh, exec, rays), any(&bvh, exec, rays));
+            for (i, want) in want.iter().enumerate() {
+                let ray = rays.get(i);
+                assert_eq!(got[i], *want, "{layout:?}, {level}: the closest hit of {ray:?}");
+                assert_eq!(found[i], want.is_some(), "{layout:?}, {level}: any hit of {ray:?}");
+            }
+        }
+    }
+}
+
+/// A bundle about a ray: directions that differ by little or nothing, from its origin.
+fn bundle(ray: &Ray, count: usize, spread: f32, random: &mut Random) -> impl Iterator<Item = Ray> {
+    let length = ray.dir.abs().max_element();
+    let offsets: Vec<_> = (0..count)
+        .map(|i| match i % 4 {
+            // Every fourth in the plane of two axes, or along one.
+            0 => Vec3::new(random.signed(), 0.0, 0.0),
+            _ => Vec3::new(random.signed(), random.signed(), random.signed()),
+        })
+        .collect();
+    let ray = *ray;
+    offsets.into_iter().map(move |offset| Ray { dir: ray.dir + offset * (length * spread), ..ray })
+}
+
+/// Rays that fill a pyramid, or several that begin in one point, in chunks that are full or not, with
+/// rays among them that hit nothing.
+#[test]
+fn bundles_hit_what_their_rays_hit() {
+    let plans = prop::collection::vec((ray(), 1..70usize, -20..2i32), 1..5);
+    proptest!(config(), |(scene in scene(), plans in plans, seed in any_seed())| {
+        let mut random = Random::new(seed);
+        let mut rays = Rays::new();
+        for (plan, count, exponent) in &plans {
+            let plan: &RayPlan = plan;
+            let ray = plan.aim(&scene);
+            rays.extend(bundle(&ray, *count, 2.0f32.powi(*exponent), &mut random));
+            if count % 3 == 0 {
+                rays.push(Ray { dir: Vec3::ZERO, ..ray });
+            }
+        }
+        one_answer(&scene, &rays);
+    });
+}
+
+fn any_seed() -> impl Strategy<Value = u64> {
+    0..u64::MAX
+}
+
+/// A closed mesh from within: every ray of a bundle is aimed at an edge or a corner, where the filter's
+/// signs are least certain, and none gets out.
+#[test]
+fn bundles_at_edges_do_not_escape() {
+    let mesh = Mesh::icosphere(5);
+    let scene = mesh.primitives();
+    for at in [Vec3::ZERO, Vec3::new(1e4, -3e4, 2e4)] {
+        let moved = scene.triangles.iter().map(|triangle| rt_kernels::geom::Triangle {
+            corners: triangle.corners.map(|corner| corner + at),
+        });
+        let scene = Primitives { triangles: moved.collect(), ..Primitives::default() };
+        let bvh = Bvh::build(&scene, &Sequential).expect("in range");
+        let mut random = Random::new(7);
+        // Neighbours in the mesh are neighbours in a packet.
+        let mut rays = Rays::new();
+        for triangle in &scene.triangles {
+            let [a, b, c] = triangle.corners;
+            let origin = at + Vec3::new(0.1, 0.2, -0.3);
+            rays.push(aim::at(origin, a));
+            rays.push(aim::at(origin, b + (c - b) * random.unit() as f32));
+        }
+        for level in Level::available() {
+            let exec = Exec { level, packet: PacketSize::Large };
+            let mut hits = Hits::new();
+            bvh.closest(exec, &rays, &mut hits, &mut Stats::default());
+            let lost = (0..rays.len()).filter(|&i| hits.get(i).is_none()).count();
+            assert_eq!(lost, 0, "{level}, at {at}: of {} rays", rays.len());
+        }
+    }
+}
+
+/// What large packets are for: neighbours share visits, whether they come from one origin or not.
+#[test]
+fn rays_that_go_together_share_visits() {
+    let mesh = Mesh::icosphere(5);
+    let scene = mesh.primitives();
+    let bvh = Bvh::build(&scene, &Sequential).expect("in range");
+    let mut random = Random::new(3);
+    let eye = Vec3::new(0.3, 0.2, 5.0);
+    let from_eye: Rays = (0..64)
+        .map(|i| aim::at(eye, Vec3::new((i % 8) as f32, (i / 8) as f32, 0.0) * 0.02))
+        .collect();
+    let scattered: Rays = (0..4096)
+        .map(|_| {
+            let mut point = || Vec3::new(random.signed(), random.signed(), random.signed());
+            aim::at(point() * 2.0, point())
+        })
+        .collect();
+    let visits = |rays: &Rays, packet| {
+        let mut stats = Stats::default();
+        let exec = Exec { packet, ..Exec::best().expect("a level") };
+        bvh.closest(exec, rays, &mut Hits::new(), &mut stats);
+        stats.node_visits
+    };
+    let gain = |rays| visits(rays, PacketSize::Single) / visits(rays, PacketSize::Large);
+    assert!(gain(&from_eye) >= 10, "{}", gain(&from_eye));
+    assert!(gain(&scattered) >= 1, "{}", gain(&scattered));
+}
