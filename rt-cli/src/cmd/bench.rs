@@ -131,7 +131,11 @@ fn worlds(scene: &Scene, args: &BenchArgs, compared: Compared) -> Result<Vec<Bui
     let plan = args.build.plan();
     let choices = match compared {
         Compared::Levels => vec![plan],
-        Compared::Kernels => Method::ALL.map(|method| Plan { method, ..plan }).to_vec(),
+        Compared::Kernels => {
+            // In the layout that all have.
+            let plan = Plan { layout: Layout::Skip, ..plan };
+            Method::ALL.map(|method| Plan { method, ..plan }).to_vec()
+        }
         Compared::Builders => Builder::ALL.map(|builder| Plan { builder, ..plan }).to_vec(),
         Compared::Layouts => Layout::ALL.map(|layout| Plan { layout, ..plan }).to_vec(),
     };

@@ -44,7 +44,7 @@ fn help_fits_a_terminal_and_names_groups_and_defaults() {
         ("--threads", "one a core"),
         ("--accel", "bvh"),
         ("--builder", "binned-sah"),
-        ("--layout", "skip"),
+        ("--layout", "bvh8"),
         ("--progress", "auto"),
     ] {
         let from = flowing.find(&format!("{flag} <")).expect(flag);

@@ -68,7 +68,7 @@ fn the_numbers_can_be() {
     for (key, value) in [
         ("accel", "bvh"),
         ("builder", "binned-sah"),
-        ("layout", "skip"),
+        ("layout", "bvh8"),
         ("kernel", "watertight"),
         ("integrator", "whitted"),
     ] {

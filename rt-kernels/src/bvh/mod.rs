@@ -92,7 +92,7 @@ impl Bvh {
         join: &impl Join,
     ) -> Result<Bvh, BuildError> {
         primitives.check()?;
-        let plan = Plan { builder, ..Plan::default() };
+        let plan = Plan { builder, layout: Layout::Skip, ..Plan::default() };
         let tree = builder.build(primitives, join);
         let array = SkipArray::unsorted(primitives, tree, plan.method);
         Ok(Bvh { plan, array: Array::Skip(array) })

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use rt_kernels::bvh::traverse::{Compared, catalogue};
-use rt_kernels::{Bvh, Hits, Plan, Stats};
+use rt_kernels::{Bvh, Hits, Layout, Plan, Stats};
 use simd4::Level;
 
 use super::Batches;
@@ -45,7 +45,7 @@ pub fn traversals(
     let builder = world.plan().builder;
     let [sorted, unsorted] = on_threads(1, || {
         let primitives = primitives(&world.scene);
-        let plan = Plan { builder, ..Plan::default() };
+        let plan = Plan { builder, layout: Layout::Skip, ..Plan::default() };
         Ok::<_, RenderError>([
             Bvh::build_with(&primitives, plan, &RayonJoin)?,
             Bvh::build_unsorted(&primitives, builder, &RayonJoin)?,

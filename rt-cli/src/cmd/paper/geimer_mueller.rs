@@ -8,7 +8,9 @@ use std::path::Path;
 
 use glam::Vec3;
 use rt_render::measure::{self, Extent};
-use rt_render::{AccelKind, Builder, Exec, Integrator, Job, Level, PacketSize, Plan, World};
+use rt_render::{
+    AccelKind, Builder, Exec, Integrator, Job, Layout, Level, PacketSize, Plan, World,
+};
 use rt_scene::{SPD_RESOLUTION, spd, tessellate};
 use serde_json::json;
 
@@ -96,7 +98,7 @@ fn prepared(
     let mut scene = tessellate(spd::generate(name, Some(size))?, SPD_RESOLUTION)?;
     let (view, lights) = (scene.view.take(), scene.lights.clone());
     let background = scene.background.unwrap_or(Vec3::ZERO);
-    let plan = Plan { builder, ..Plan::default() };
+    let plan = Plan { builder, layout: Layout::Skip, ..Plan::default() };
     let world = World::build_with(scene, AccelKind::Bvh, plan, 1)?;
     let job = Job {
         size: picture,
