@@ -84,7 +84,7 @@ fn one_answer_with(
 
 /// The traversals that are there to be compared, over children in either order.
 fn same_compared(want: &[Bits], scene: &Primitives, rays: &Rays) {
-    let plan = Plan { builder: Builder::Insertion, ..Plan::default() };
+    let plan = Plan { builder: Builder::Insertion, layout: Layout::Skip, ..Plan::default() };
     let sorted = Bvh::build_with(scene, plan, &Sequential).expect("a scene in range");
     let unsorted = Bvh::build_unsorted(scene, plan.builder, &Sequential).expect("a scene in range");
     for (traversal, bvh) in

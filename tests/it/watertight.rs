@@ -195,11 +195,11 @@ fn spiky_ball_of_every_other_builder() {
 }
 
 #[test]
-fn spiky_ball_of_wide_nodes() {
+fn spiky_ball_of_every_other_layout() {
     let mut ball = vessel(1.0, Vec3::ZERO, 0.05);
     let scene = ball.mesh.primitives();
     let scattered = ball.scattered(rays(200_000), &mut Random::new(14));
-    for layout in [Layout::Bvh4, Layout::Bvh8] {
+    for layout in Layout::ALL.into_iter().filter(|layout| *layout != Layout::default()) {
         let plan = Plan { layout, ..Plan::default() };
         ball.bvh = Bvh::build_with(&scene, plan, &Sequential).expect("in range");
         ball.holds(layout.name(), &scattered);
