@@ -23,7 +23,8 @@ pub(crate) fn visit<T: Traverse>(traverse: &T, ray: &Ray, visitor: Visitor<'_>) 
     });
 }
 
-/// Wide nodes are for single rays: whatever packets are asked for, there is one ray in all lanes.
+/// Wide nodes are for single rays, one in all lanes, and else for [large packets](large), whatever
+/// packets are asked for.
 impl<const N: usize> Accelerator for Wide<N>
 where
     Self: Width,
