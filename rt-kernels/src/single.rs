@@ -23,7 +23,7 @@ pub(crate) fn visit<T: Traverse>(traverse: &T, ray: &Ray, visitor: Visitor<'_>) 
     });
 }
 
-/// Wide nodes are for single rays, one in all lanes, and else for [large packets](large), whatever
+/// Wide nodes are for single rays, one in all lanes, and else for large packets, whatever
 /// packets are asked for.
 impl<const N: usize> Accelerator for Wide<N>
 where
