@@ -150,7 +150,7 @@ impl<S: Simd, const N: usize> Traversal<'_, S, N> {
                     let Some(node) = wide.nodes().get(node) else { break };
                     self.stats.node_visits += 1;
                     let Children { mut lanes, enter, rays } =
-                        W::children::<S, B, N>(self, culling, node, rays, limit);
+                        self.children::<B, W>(culling, node, rays, limit);
                     let first = top;
                     while lanes != 0 {
                         let lane = lanes.trailing_zeros() as usize & (N - 1);
@@ -188,6 +188,39 @@ impl<S: Simd, const N: usize> Traversal<'_, S, N> {
             greatest = greatest.max(limit);
         }
         (rays & entry.rays, greatest.reduce_max())
+    }
+
+    /// The children that some of the rays may hit with `t <= limit`, which is the greatest of all.
+    #[inline(always)]
+    fn children<B: SimdF32<Simd = S>, W: Way>(
+        &mut self,
+        culling: &Culling,
+        node: &WideNode<N>,
+        rays: u64,
+        limit: f32,
+    ) -> Children<B, N> {
+        let s = self.s;
+        let (mask, enter, seen) = W::candidates::<B, N>(s, culling, node, limit);
+        let mut left = mask.bitmask();
+        self.wide.prefetch(s, node, left);
+        let mut children = Children { lanes: 0, enter: enter.to_array(), rays: [0; N] };
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & (N - 1);
+            left &= left - 1;
+            let mut passing = 0;
+            for g in 0..self.packet.groups::<S::f32s>() {
+                if of_group::<S>(rays, g) == 0 {
+                    continue;
+                }
+                self.stats.box_tests += S::LANES as u64;
+                let may_hit = W::may_hit::<B, S::f32s, N>(s, node, &seen, lane, &self.packet, g);
+                passing |= u64::from(may_hit.bitmask()) << (g * S::LANES % LARGE);
+            }
+            passing &= rays;
+            children.rays[lane] = passing;
+            children.lanes |= u32::from(passing != 0) << lane;
+        }
+        children
     }
 
     /// Tests rays with one origin against the primitives of a leaf.
@@ -272,105 +305,100 @@ struct Children<B: SimdF32, const N: usize> {
     rays: [u64; N],
 }
 
-/// How rays are tested against the children of a node.
+/// How rays are tested against the children of a node: all children at once, then what is left child
+/// by child.
 trait Way {
     /// The most rays that go on one by one below a node.
     const FEW: u32;
     /// The most rays that are tested one by one in a leaf.
     const FEW_IN_LEAF: u32;
 
-    /// The children that some of the rays may hit with `t <= limit`, which is the greatest of all.
-    fn children<S: Simd, B: SimdF32<Simd = S>, const N: usize>(
-        of: &mut Traversal<'_, S, N>,
+    /// What all rays share of the children's boxes.
+    type Seen<B: SimdF32>;
+
+    /// The children that some ray may hit with `t <= limit`, and where none enters before.
+    fn candidates<B: SimdF32, const N: usize>(
+        s: B::Simd,
         culling: &Culling,
         node: &WideNode<N>,
-        rays: u64,
         limit: f32,
-    ) -> Children<B, N>;
+    ) -> (B::Mask, B, Self::Seen<B>);
+
+    /// The rays of a register that may hit the child in that lane.
+    fn may_hit<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
+        s: V::Simd,
+        node: &WideNode<N>,
+        seen: &Self::Seen<B>,
+        lane: usize,
+        packet: &LargePacket<'_>,
+        g: usize,
+    ) -> V::Mask;
 }
 
-/// Rays with one origin, close together: all children at once against all rays, then what is left
-/// child by child.
+/// Rays with one origin, close together.
 struct Pyramid;
 
 impl Way for Pyramid {
     const FEW: u32 = 2;
     const FEW_IN_LEAF: u32 = 4;
 
+    type Seen<B: SimdF32> = Sides<B>;
+
     #[inline(always)]
-    fn children<S: Simd, B: SimdF32<Simd = S>, const N: usize>(
-        of: &mut Traversal<'_, S, N>,
+    fn candidates<B: SimdF32, const N: usize>(
+        s: B::Simd,
         culling: &Culling,
         node: &WideNode<N>,
-        rays: u64,
         limit: f32,
-    ) -> Children<B, N> {
-        let s = of.s;
+    ) -> (B::Mask, B, Sides<B>) {
         let found = culling.candidates::<B, _>(s, node, limit);
-        let sides = Sides::new(&found);
-        let mut left = found.mask.bitmask();
-        of.wide.prefetch(s, node, left);
-        let mut children = Children { lanes: 0, enter: found.enter.to_array(), rays: [0; N] };
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize & (N - 1);
-            left &= left - 1;
-            let mut passing = 0;
-            for g in 0..of.packet.groups::<S::f32s>() {
-                if of_group::<S>(rays, g) == 0 {
-                    continue;
-                }
-                of.stats.box_tests += S::LANES as u64;
-                let may_hit = sides.may_hit::<S::f32s>(s, lane, of.packet.reach(s, g));
-                passing |= u64::from(may_hit.bitmask()) << (g * S::LANES % LARGE);
-            }
-            passing &= rays;
-            children.rays[lane] = passing;
-            children.lanes |= u32::from(passing != 0) << lane;
-        }
-        children
+        (found.mask, found.enter, Sides::new(&found))
+    }
+
+    #[inline(always)]
+    fn may_hit<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
+        s: V::Simd,
+        _: &WideNode<N>,
+        seen: &Sides<B>,
+        lane: usize,
+        packet: &LargePacket<'_>,
+        g: usize,
+    ) -> V::Mask {
+        seen.may_hit(s, lane, packet.reach::<V>(s, g))
     }
 }
 
-/// Rays that start or go anywhere in their class: as far as intervals tell, all children at once, then
-/// what is left child by child.
+/// Rays that start or go anywhere in their class.
 struct Spread;
 
 impl Way for Spread {
     const FEW: u32 = 16;
     const FEW_IN_LEAF: u32 = LARGE as u32;
 
+    type Seen<B: SimdF32> = ();
+
     #[inline(always)]
-    fn children<S: Simd, B: SimdF32<Simd = S>, const N: usize>(
-        of: &mut Traversal<'_, S, N>,
+    fn candidates<B: SimdF32, const N: usize>(
+        s: B::Simd,
         culling: &Culling,
         node: &WideNode<N>,
-        rays: u64,
         limit: f32,
-    ) -> Children<B, N> {
-        let s = of.s;
-        let (mask, enter) = interval::candidates::<B, _>(s, node, culling.beam, limit);
-        let mut left = mask.bitmask();
-        of.wide.prefetch(s, node, left);
-        let mut children = Children { lanes: 0, enter: enter.to_array(), rays: [0; N] };
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize & (N - 1);
-            left &= left - 1;
-            let aabb = node.aabb(lane);
-            let mut passing = 0;
-            for g in 0..of.packet.groups::<S::f32s>() {
-                if of_group::<S>(rays, g) == 0 {
-                    continue;
-                }
-                of.stats.box_tests += S::LANES as u64;
-                let (packet, frame) = of.packet.group::<S::f32s>(s, g);
-                let may_hit = robust::may_hit(s, &aabb, &packet, &frame, packet.tmax);
-                passing |= u64::from(may_hit.bitmask()) << (g * S::LANES % LARGE);
-            }
-            passing &= rays;
-            children.rays[lane] = passing;
-            children.lanes |= u32::from(passing != 0) << lane;
-        }
-        children
+    ) -> (B::Mask, B, ()) {
+        let (mask, enter) = interval::candidates(s, node, culling.beam, limit);
+        (mask, enter, ())
+    }
+
+    #[inline(always)]
+    fn may_hit<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
+        s: V::Simd,
+        node: &WideNode<N>,
+        (): &(),
+        lane: usize,
+        packet: &LargePacket<'_>,
+        g: usize,
+    ) -> V::Mask {
+        let (packet, frame) = packet.group::<V>(s, g);
+        robust::may_hit(s, &node.aabb(lane), &packet, &frame, packet.tmax)
     }
 }
 
