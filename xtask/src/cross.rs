@@ -110,10 +110,8 @@ pub(crate) fn runner(sh: &Shell, target: &Target) -> Vec<String> {
         }
         Run::Node => {
             let script = sh.current_dir().join(Path::new("xtask").join("wasi.mjs"));
-            // The optimiser of Node 20 crashes over our largest functions, with threads of its own
-            // sooner: the compiler before it has to do.
-            let flags = ["node", "--no-warnings", "--single-threaded", "--liftoff-only"];
-            let flags = flags.map(str::to_owned);
+            // With threads of its own, the optimiser of Node 20 crashes over our largest functions.
+            let flags = ["node", "--no-warnings", "--single-threaded"].map(str::to_owned);
             [&flags[..], &[script.display().to_string()]].concat()
         }
     }
