@@ -110,8 +110,8 @@ pub(crate) fn runner(sh: &Shell, target: &Target) -> Vec<String> {
         }
         Run::Node => {
             let script = sh.current_dir().join(Path::new("xtask").join("wasi.mjs"));
-            // With threads of its own, the optimiser of Node 20 crashes over our largest functions.
-            let flags = ["node", "--no-warnings", "--single-threaded"].map(str::to_owned);
+            // Node 20's optimiser crashes over our largest functions, now and then at the exit.
+            let flags = ["node", "--no-warnings", "--no-wasm-tier-up"].map(str::to_owned);
             [&flags[..], &[script.display().to_string()]].concat()
         }
     }

@@ -41,8 +41,8 @@ pub(crate) static TARGETS: &[Target] = &[
     target("cortex-a72",    AARCH64,     qemu("aarch64", "cortex-a72"),      These(&["scalar", "neon"]),                  Brief,       None,              Linux,         OnDemand),
     target("aarch64-all",   AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Workspace,   None,              Linux,         OnDemand),
     target("i686",          I686,        Directly,                           OfThisCpu,                                   Core,        Some(Core),        LinuxX86,      EveryRun),
-    target("wasm32",        WASM32,      Node,                               These(&["scalar"]),                          Core,        None,              Unix,          OnDemand),
-    target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Core,        Some(Core),        Unix,          OnDemand),
+    target("wasm32",        WASM32,      Node,                               These(&["scalar"]),                          Core,        None,              Unix,          EveryRun),
+    target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Core,        Some(Core),        Unix,          EveryRun),
     // Without a level of their own: the definition holds for either order of bytes and for every
     // way to make vectors of scalar code.
     target("armv7",         ARMV7,       qemu("arm", "max"),                 These(&["scalar"]),                          Brief,       None,              Linux,         OnDemand),
