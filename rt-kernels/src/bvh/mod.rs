@@ -19,6 +19,7 @@ use crate::accelerator::Visitor;
 use crate::packet::{Hits, Rays};
 use crate::tri::Method;
 use crate::{Accelerator, Exec, Primitives, Ray, Stats};
+use build::Block;
 use layout::{SkipArray, Wide};
 
 /// A hierarchy of boxes.
@@ -72,7 +73,7 @@ impl Bvh {
     ) -> Result<Bvh, BuildError> {
         primitives.check()?;
         let plan = Plan { layout: plan.layout(), ..plan };
-        let tree = plan.builder.build(primitives, join);
+        let tree = plan.builder.build(primitives, plan.layout.block(primitives), join);
         let array = match plan.layout {
             Layout::Skip => Array::Skip(SkipArray::new(primitives, tree, plan.method)),
             Layout::Bvh4 => Array::Bvh4(Wide::new(primitives, tree)),
@@ -93,7 +94,7 @@ impl Bvh {
     ) -> Result<Bvh, BuildError> {
         primitives.check()?;
         let plan = Plan { builder, layout: Layout::Skip, ..Plan::default() };
-        let tree = builder.build(primitives, join);
+        let tree = builder.build(primitives, Block::ONE, join);
         let array = SkipArray::unsorted(primitives, tree, plan.method);
         Ok(Bvh { plan, array: Array::Skip(array) })
     }

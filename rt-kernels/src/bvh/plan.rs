@@ -1,6 +1,8 @@
 //! What there is to choose of a hierarchy.
 
 use super::Builder;
+use super::build::Block;
+use crate::Primitives;
 use crate::tri::Method;
 
 /// What hierarchy to build. The hits depend on the triangle test alone.
@@ -46,6 +48,17 @@ impl Layout {
             Layout::Skip => "skip",
             Layout::Bvh4 => "bvh4",
             Layout::Bvh8 => "bvh8",
+        }
+    }
+
+    /// How many of these primitives it tests at once: triangles as many as a node has children, others
+    /// one by one.
+    pub(super) fn block(self, primitives: &Primitives) -> Block {
+        let [_, others @ ..] = primitives.counts();
+        match self {
+            Layout::Bvh4 if others == [0; 2] => Block::of(4),
+            Layout::Bvh8 if others == [0; 2] => Block::of(8),
+            _ => Block::ONE,
         }
     }
 }

@@ -11,7 +11,7 @@
 use simd4::f32x4;
 use simd4::prelude::*;
 
-use super::sah::{SAH_DEPTH, Side, both};
+use super::sah::{Block, SAH_DEPTH, Side, both};
 use super::{Bounds, Join, Node, Reference, Tree};
 use crate::bvh::layout::MAX_SLOTS;
 use crate::primitives::Primitives;
@@ -26,16 +26,21 @@ fn bins_for(references: usize) -> usize {
 }
 
 /// Builds the tree of all primitives.
-pub(crate) fn build(primitives: &Primitives, join: &impl Join) -> Tree {
-    build_from(primitives, 0, join)
+pub(crate) fn build(primitives: &Primitives, block: Block, join: &impl Join) -> Tree {
+    build_from(primitives, block, 0, join)
 }
 
 /// As [`build`], as if the root were at that depth.
-pub(super) fn build_from(primitives: &Primitives, depth: usize, join: &impl Join) -> Tree {
+pub(super) fn build_from(
+    primitives: &Primitives,
+    block: Block,
+    depth: usize,
+    join: &impl Join,
+) -> Tree {
     let mut order: Vec<Reference> = Reference::all(primitives).collect();
     let root = (!order.is_empty()).then(|| {
         let extent = Extent::of(&order);
-        subtree(&mut order, extent, 0, depth, join)
+        subtree(&mut order, extent, 0, block, depth, join)
     });
     Tree { root, order }
 }
@@ -45,12 +50,17 @@ fn subtree(
     references: &mut [Reference],
     extent: Extent,
     first: usize,
+    block: Block,
     depth: usize,
     join: &impl Join,
 ) -> Node {
-    let split = if depth < SAH_DEPTH { best_split(references, &extent.centers) } else { None };
+    let split = if depth < SAH_DEPTH && block.tests(references.len()) > 1 {
+        best_split(references, &extent.centers, block)
+    } else {
+        None
+    };
     let [left, right] = match split {
-        Some(split) if extent.side.pays(split.cost) => split.partition(references),
+        Some(split) if extent.side.pays(split.cost, block) => split.partition(references),
         _ if references.len() > MAX_SLOTS => halve(references, &extent.centers),
         _ => return extent.side.leaf(first),
     };
@@ -59,8 +69,8 @@ fn subtree(
     extent.side.inner(both(
         join,
         [lefts.len(), rights.len()],
-        || subtree(lefts, left, first, depth + 1, join),
-        || subtree(rights, right, first + middle, depth + 1, join),
+        || subtree(lefts, left, first, block, depth + 1, join),
+        || subtree(rights, right, first + middle, block, depth + 1, join),
     ))
 }
 
@@ -126,7 +136,11 @@ pub(super) struct Split {
 }
 
 /// The cheapest split with something on both sides.
-pub(super) fn best_split(references: &[Reference], centers: &Bounds) -> Option<Split> {
+pub(super) fn best_split(
+    references: &[Reference],
+    centers: &Bounds,
+    block: Block,
+) -> Option<Split> {
     if references.len() < 2 {
         return None;
     }
@@ -147,12 +161,12 @@ pub(super) fn best_split(references: &[Reference], centers: &Bounds) -> Option<S
         let mut right = Side::empty();
         for (bin, cost) in bins.iter().zip(&mut right_costs[..used]).skip(1).rev() {
             right.add(&bin.bounds, bin.count);
-            *cost = right.cost();
+            *cost = right.cost(block);
         }
         let mut left = Side::empty();
         for border in 1..used {
             left.add(&bins[border - 1].bounds, bins[border - 1].count);
-            let cost = left.cost() + right_costs[border];
+            let cost = left.cost(block) + right_costs[border];
             let both = left.count > 0 && left.count < references.len();
             if both && cost < least {
                 (best, least) = (Some((axis, border)), cost);

@@ -1,6 +1,6 @@
 //! The builders, to choose from at run time.
 
-use super::{Join, Tree, binned_sah, goldsmith_salmon, spatial_splits, sweep_sah};
+use super::{Block, Join, Tree, binned_sah, goldsmith_salmon, spatial_splits, sweep_sah};
 use crate::primitives::Primitives;
 
 /// How a hierarchy is built. The hits do not depend on it, the time to find them does.
@@ -34,13 +34,14 @@ impl Builder {
         }
     }
 
-    /// Builds the tree of all primitives. It is the same for any `join`.
-    pub(crate) fn build(self, primitives: &Primitives, join: &impl Join) -> Tree {
+    /// Builds the tree of all primitives, which are tested in such blocks. It is the same for any
+    /// `join`.
+    pub(crate) fn build(self, primitives: &Primitives, block: Block, join: &impl Join) -> Tree {
         match self {
-            Builder::BinnedSah => binned_sah::build(primitives, join),
-            Builder::SweepSah => sweep_sah::build(primitives, join),
+            Builder::BinnedSah => binned_sah::build(primitives, block, join),
+            Builder::SweepSah => sweep_sah::build(primitives, block, join),
             Builder::Insertion => goldsmith_salmon::build(primitives),
-            Builder::Spatial => spatial_splits::build(primitives, join),
+            Builder::Spatial => spatial_splits::build(primitives, block, join),
         }
     }
 }

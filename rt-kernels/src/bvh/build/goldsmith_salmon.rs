@@ -24,7 +24,7 @@
 //!    insert a primitive is bounded;
 //! 3. nodes become leaves where testing all primitives below costs no more than testing boxes first.
 
-use super::sah::NODE_COST;
+use super::sah::Block;
 use super::{Bounds, Content, Node, Reference, Tree};
 use crate::bvh::layout::MAX_SLOTS;
 use crate::primitives::Primitives;
@@ -183,7 +183,8 @@ impl Growing {
                 let converted = children.iter().map(|&i| self.convert(i as usize, order));
                 let (children, costs): (Vec<_>, Vec<_>) = converted.unzip();
                 // Without them there would be one box to test instead of one a child.
-                let more = NODE_COST * (children.len() - 1) as f32 * bounds.half_area();
+                let more =
+                    Block::ONE.node_cost() * (children.len() - 1) as f32 * bounds.half_area();
                 let cost = more + costs.into_iter().sum::<f32>();
                 (*count > MAX_SLOTS || cost < leaf_cost).then_some((children, cost))
             }

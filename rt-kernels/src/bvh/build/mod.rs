@@ -13,6 +13,7 @@ pub mod sweep_sah;
 
 pub use builder::Builder;
 pub(crate) use reference::{Bounds, Reference};
+pub(crate) use sah::Block;
 
 use std::ops::Range;
 
@@ -170,9 +171,9 @@ mod tests {
         let last = sah::SAH_DEPTH;
         let trees = |depth| {
             [
-                binned_sah::build_from(&scene, depth, &Sequential),
-                sweep_sah::build_from(&scene, depth, &Sequential),
-                spatial_splits::build_from(&scene, depth, &Sequential),
+                binned_sah::build_from(&scene, Block::ONE, depth, &Sequential),
+                sweep_sah::build_from(&scene, Block::ONE, depth, &Sequential),
+                spatial_splits::build_from(&scene, Block::ONE, depth, &Sequential),
             ]
             .map(|tree| tree.root.expect("there are primitives").depth())
         };
@@ -180,11 +181,29 @@ mod tests {
         assert_eq!(trees(last), [bound; 3]);
     }
 
+    /// There is nothing to gain within a block, and no reason to part one.
+    #[test]
+    fn what_is_tested_at_once_is_not_split() {
+        let scene = heaps();
+        let eight = Primitives { triangles: scene.triangles[..8].into(), ..Primitives::default() };
+        for builder in [Builder::BinnedSah, Builder::SweepSah, Builder::Spatial] {
+            let leaves = |block| {
+                let mut count = 0;
+                let tree = builder.build(&eight, block, &Sequential);
+                tree.root.expect("there are primitives").leaves(&mut |_, _| count += 1);
+                count
+            };
+            assert!(leaves(Block::ONE) > 1, "{builder:?}");
+            assert_eq!(leaves(Block::of(8)), 1, "{builder:?}");
+            assert!(leaves(Block::of(4)) > 1, "{builder:?}");
+        }
+    }
+
     /// What the heuristic is for.
     #[test]
     fn two_heaps_are_two_subtrees() {
         for builder in [Builder::BinnedSah, Builder::SweepSah, Builder::Spatial] {
-            let tree = builder.build(&heaps(), &Sequential);
+            let tree = builder.build(&heaps(), Block::ONE, &Sequential);
             let Some(Node { content: Content::Inner(children), .. }) = tree.root else {
                 panic!("{builder:?} made one leaf of all");
             };
@@ -198,10 +217,12 @@ mod tests {
     #[test]
     fn every_primitive_is_in_a_leaf_and_every_box_in_its_node() {
         let scenes = [nested(), heaps()];
-        for (scene, builder) in
-            scenes.iter().flat_map(|scene| Builder::ALL.map(|builder| (scene, builder)))
-        {
-            let tree = builder.build(scene, &Sequential);
+        let blocks = [Block::ONE, Block::of(8)];
+        for (scene, (builder, block)) in scenes.iter().flat_map(|scene| {
+            let ways = Builder::ALL.into_iter().flat_map(|builder| blocks.map(|b| (builder, b)));
+            ways.map(move |way| (scene, way))
+        }) {
+            let tree = builder.build(scene, block, &Sequential);
             let mut found = vec![0; scene.len()];
             tree.root.expect("there are primitives").leaves(&mut |node, range| {
                 for reference in &tree.order[range] {

@@ -37,7 +37,7 @@
 //! Deviations: the above; references grow within a bound.
 
 use super::binned_sah::{self, Extent};
-use super::sah::{SAH_DEPTH, Side, both};
+use super::sah::{Block, SAH_DEPTH, Side, both};
 use super::{Bounds, Join, Node, Reference, Tree};
 use crate::bvh::layout::MAX_SLOTS;
 use crate::primitives::{MAX_PRIMITIVES, Primitives};
@@ -53,12 +53,17 @@ const OVERLAP: f32 = 1e-5;
 const GROWTH: f64 = 0.3;
 
 /// Builds the tree of all primitives.
-pub(crate) fn build(primitives: &Primitives, join: &impl Join) -> Tree {
-    build_from(primitives, 0, join)
+pub(crate) fn build(primitives: &Primitives, block: Block, join: &impl Join) -> Tree {
+    build_from(primitives, block, 0, join)
 }
 
 /// As [`build`], as if the root were at that depth.
-pub(super) fn build_from(primitives: &Primitives, depth: usize, join: &impl Join) -> Tree {
+pub(super) fn build_from(
+    primitives: &Primitives,
+    block: Block,
+    depth: usize,
+    join: &impl Join,
+) -> Tree {
     let mut order: Vec<Reference> = Reference::all(primitives).collect();
     let count = order.len();
     if count == 0 {
@@ -68,7 +73,7 @@ pub(super) fn build_from(primitives: &Primitives, depth: usize, join: &impl Join
     let overlap = OVERLAP * extent.side.bounds.half_area();
     let spare = ((count as f64 * GROWTH) as usize).min(MAX_PRIMITIVES - count);
     order.resize(count + spare, order[0]);
-    let room = Room { references: &mut order, extent, first: 0 };
+    let room = Room { references: &mut order, extent, first: 0, block };
     let root = room.subtree(overlap, depth, join);
     Tree { root: Some(root), order }
 }
@@ -80,23 +85,29 @@ struct Room<'a> {
     extent: Extent,
     /// Where the room begins among all.
     first: usize,
+    block: Block,
 }
 
 impl<'a> Room<'a> {
     /// The tree of the references; `depth` is that of its root. Spatial splits are tried where others
     /// overlap by more than `overlap`.
     fn subtree(self, overlap: f32, depth: usize, join: &impl Join) -> Node {
-        let Extent { side: whole, centers } = self.extent;
+        let (Extent { side: whole, centers }, block) = (self.extent, self.block);
         let (all, spare) = self.references.split_at_mut(whole.count);
-        let split = if depth < SAH_DEPTH { binned_sah::best_split(all, &centers) } else { None };
+        let split = if depth < SAH_DEPTH && block.tests(whole.count) > 1 {
+            binned_sah::best_split(all, &centers, block)
+        } else {
+            None
+        };
         let cut = split.as_ref().filter(|split| common_area(&split.sides) > overlap);
         let cut = cut.and_then(|split| {
-            let plane = best_plane(all, &whole.bounds, spare.len())?;
-            (plane.cost < split.cost && whole.pays(plane.cost)).then(|| plane.cut(all))?
+            let plane = best_plane(all, &whole.bounds, spare.len(), block)?;
+            (plane.cost < split.cost && whole.pays(plane.cost, block))
+                .then(|| plane.cut(all, block))?
         });
         let (left, right) = match (cut, split) {
             (Some(sides), _) => self.share_out(&sides),
-            (None, Some(split)) if whole.pays(split.cost) => {
+            (None, Some(split)) if whole.pays(split.cost, block) => {
                 let extents = split.partition(all);
                 self.split(extents)
             }
@@ -122,10 +133,11 @@ impl<'a> Room<'a> {
         let spare = self.references.len() - count;
         let at = middle + (spare as u64 * middle as u64 / count as u64) as usize;
         self.references.copy_within(middle..count, at);
-        let (lefts, rights) = self.references.split_at_mut(at);
+        let Room { references, first, block, .. } = self;
+        let (lefts, rights) = references.split_at_mut(at);
         (
-            Room { references: lefts, extent: left, first: self.first },
-            Room { references: rights, extent: right, first: self.first + at },
+            Room { references: lefts, extent: left, first, block },
+            Room { references: rights, extent: right, first: first + at, block },
         )
     }
 
@@ -154,7 +166,12 @@ struct Plane {
 }
 
 /// The cheapest plane with something less on both sides that adds at most `spare` references.
-fn best_plane(references: &[Reference], whole: &Bounds, spare: usize) -> Option<Plane> {
+fn best_plane(
+    references: &[Reference],
+    whole: &Bounds,
+    spare: usize,
+    block: Block,
+) -> Option<Plane> {
     let mut best: Option<Plane> = None;
     for axis in 0..3 {
         let [low, high] = whole.aabb().axes[axis];
@@ -192,7 +209,7 @@ fn best_plane(references: &[Reference], whole: &Bounds, spare: usize) -> Option<
         for i in 1..BINS {
             left.add(&boxes[i - 1], enter[i - 1]);
             let (right, count) = (rights[i], references.len());
-            let cost = left.cost() + right.cost();
+            let cost = left.cost(block) + right.cost(block);
             let less = left.count.max(right.count) < count && left.count.min(right.count) > 0;
             let fits = left.count + right.count <= count + spare;
             if less && fits && best.as_ref().is_none_or(|best| cost < best.cost) {
@@ -206,7 +223,7 @@ fn best_plane(references: &[Reference], whole: &Bounds, spare: usize) -> Option<
 impl Plane {
     /// The references on both sides: those that the plane passes through are cut, or go to one side
     /// where that is cheaper. `None` if nothing is left on one side.
-    fn cut(mut self, references: &[Reference]) -> Option<[Vec<Reference>; 2]> {
+    fn cut(mut self, references: &[Reference], block: Block) -> Option<[Vec<Reference>; 2]> {
         let mut sides = self.sides.map(|side| Vec::with_capacity(side.count));
         for reference in references {
             let [min, max] = reference.bounds().aabb().axes[self.axis];
@@ -214,7 +231,7 @@ impl Plane {
                 sides[1].push(*reference);
             } else if max <= self.at {
                 sides[0].push(*reference);
-            } else if let Some(whole) = self.cheaper_whole(reference.bounds()) {
+            } else if let Some(whole) = self.cheaper_whole(reference.bounds(), block) {
                 sides[whole].push(*reference);
             } else {
                 let slabs = [[min, self.at], [self.at, max]];
@@ -228,13 +245,14 @@ impl Plane {
     }
 
     /// The side that a box would go to whole, if that is cheaper than to cut it. The sides follow.
-    fn cheaper_whole(&mut self, bounds: &Bounds) -> Option<usize> {
+    fn cheaper_whole(&mut self, bounds: &Bounds, block: Block) -> Option<usize> {
         let cost = |grown: usize| {
             let [whole, other] = [&self.sides[grown], &self.sides[1 - grown]];
             let area = whole.bounds.union(bounds).half_area();
-            area * whole.count as f32 + other.bounds.half_area() * (other.count - 1) as f32
+            let [tests, of_other] = [whole.count, other.count - 1].map(|n| block.tests(n) as f32);
+            area * tests + other.bounds.half_area() * of_other
         };
-        let both = self.sides[0].cost() + self.sides[1].cost();
+        let both = self.sides[0].cost(block) + self.sides[1].cost(block);
         let (left, right) = (cost(0), cost(1));
         let side = usize::from(right < left);
         if left.min(right) >= both {
@@ -282,7 +300,7 @@ mod tests {
     #[test]
     fn pieces_cover_own_boxes_to_the_last_bit() {
         let scene = scene();
-        let tree = build(&scene, &Sequential);
+        let tree = build(&scene, Block::ONE, &Sequential);
         let mut pieces = vec![Vec::new(); scene.len()];
         tree.root.expect("there are primitives").leaves(&mut |_, range| {
             for reference in &tree.order[range] {

@@ -12,18 +12,23 @@ use std::cmp::Ordering;
 
 use simd4::prelude::*;
 
-use super::sah::{SAH_DEPTH, Side, both};
+use super::sah::{Block, SAH_DEPTH, Side, both};
 use super::{Join, Node, Reference, Tree};
 use crate::bvh::layout::MAX_SLOTS;
 use crate::primitives::Primitives;
 
 /// Builds the tree of all primitives.
-pub(crate) fn build(primitives: &Primitives, join: &impl Join) -> Tree {
-    build_from(primitives, 0, join)
+pub(crate) fn build(primitives: &Primitives, block: Block, join: &impl Join) -> Tree {
+    build_from(primitives, block, 0, join)
 }
 
 /// As [`build`], as if the root were at that depth.
-pub(super) fn build_from(primitives: &Primitives, depth: usize, join: &impl Join) -> Tree {
+pub(super) fn build_from(
+    primitives: &Primitives,
+    block: Block,
+    depth: usize,
+    join: &impl Join,
+) -> Tree {
     let all: Vec<Reference> = Reference::all(primitives).collect();
     let sorted = |axis| {
         let mut sorted = all.clone();
@@ -33,7 +38,7 @@ pub(super) fn build_from(primitives: &Primitives, depth: usize, join: &impl Join
     let (mut x, (mut y, mut z)) = join.join(|| sorted(0), || join.join(|| sorted(1), || sorted(2)));
     let mut spare = all;
     let sweep = Sweep { sorted: [&mut x, &mut y, &mut z], spare: &mut spare };
-    let root = (!sweep.spare.is_empty()).then(|| sweep.subtree(0, depth, join));
+    let root = (!sweep.spare.is_empty()).then(|| sweep.subtree(0, block, depth, join));
     Tree { root, order: x }
 }
 
@@ -58,11 +63,15 @@ struct Split {
 
 impl Sweep<'_> {
     /// The tree of these references, which begin at `first` of all; `depth` is that of its root.
-    fn subtree(mut self, first: usize, depth: usize, join: &impl Join) -> Node {
+    fn subtree(mut self, first: usize, block: Block, depth: usize, join: &impl Join) -> Node {
         let whole = Side::of(self.sorted[0]);
-        let split = if depth < SAH_DEPTH { self.best_split() } else { None };
+        let split = if depth < SAH_DEPTH && block.tests(whole.count) > 1 {
+            self.best_split(block)
+        } else {
+            None
+        };
         let (axis, middle) = match split {
-            Some(split) if whole.pays(split.cost) => (split.axis, split.middle),
+            Some(split) if whole.pays(split.cost, block) => (split.axis, split.middle),
             _ if whole.count > MAX_SLOTS => (self.widest_axis(), whole.count / 2),
             _ => return whole.leaf(first),
         };
@@ -71,13 +80,13 @@ impl Sweep<'_> {
         whole.inner(both(
             join,
             [middle, whole.count - middle],
-            || left.subtree(first, depth + 1, join),
-            || right.subtree(first + middle, depth + 1, join),
+            || left.subtree(first, block, depth + 1, join),
+            || right.subtree(first + middle, block, depth + 1, join),
         ))
     }
 
     /// The cheapest split; of equal ones the first, axis by axis.
-    fn best_split(&self) -> Option<Split> {
+    fn best_split(&self, block: Block) -> Option<Split> {
         let count = self.spare.len();
         let mut best: Option<Split> = None;
         let mut right_costs = vec![0.0; count];
@@ -85,12 +94,12 @@ impl Sweep<'_> {
             let mut right = Side::empty();
             for (reference, cost) in sorted.iter().zip(&mut right_costs).rev() {
                 right.add(reference.bounds(), 1);
-                *cost = right.cost();
+                *cost = right.cost(block);
             }
             let mut left = Side::empty();
             for middle in 1..count {
                 left.add(sorted[middle - 1].bounds(), 1);
-                let cost = left.cost() + right_costs[middle];
+                let cost = left.cost(block) + right_costs[middle];
                 if best.as_ref().is_none_or(|best| cost < best.cost) {
                     best = Some(Split { axis, middle, cost });
                 }

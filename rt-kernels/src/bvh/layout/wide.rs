@@ -449,6 +449,7 @@ mod tests {
     use simd4::{Level, Simd, SimdMask, dispatch};
 
     use super::*;
+    use crate::bvh::build::Block;
     use crate::bvh::{Builder, Sequential};
     use crate::geom::{Cone, Sphere, Triangle};
     use crate::packet::Packet;
@@ -498,8 +499,12 @@ mod tests {
 
     fn once_each<const N: usize>() {
         let scene = heap();
-        for builder in [Builder::BinnedSah, Builder::SweepSah, Builder::Insertion] {
-            let mut wide = Wide::<N>::new(&scene, builder.build(&scene, &Sequential));
+        let builders = [Builder::BinnedSah, Builder::SweepSah, Builder::Insertion];
+        let blocks = [Block::ONE, Block::of(N)];
+        for (builder, block) in
+            builders.into_iter().flat_map(|builder| blocks.map(|b| (builder, b)))
+        {
+            let mut wide = Wide::<N>::new(&scene, builder.build(&scene, block, &Sequential));
             assert_eq!(looked_through(&wide, &scene), vec![1; scene.len()], "{builder:?}");
             let most = wide.nodes.len() * (N - 1) + 1;
             let leaves = wide.nodes.iter().flat_map(|node| &node.children);
