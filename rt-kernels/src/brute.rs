@@ -6,7 +6,7 @@ use crate::packet::{Frame, Packet, Query};
 use crate::primitives::Store;
 use crate::trace::Traverse;
 use crate::tri::{Method, TriangleKernel};
-use crate::{BuildError, Primitives, Stats};
+use crate::{BuildError, Counters, Primitives};
 
 /// No acceleration at all.
 #[derive(Clone, Debug)]
@@ -43,7 +43,7 @@ impl Traverse for Brute {
         packet: &Packet<V>,
         frame: &F,
         query: &mut Q,
-        stats: &mut Stats,
+        stats: &mut impl Counters,
     ) {
         let store = &self.store;
         for slots in store.slots_by_kind() {

@@ -88,5 +88,5 @@ pub use kd::{KdBuilder, KdPlan, KdTree};
 pub use mailbox::Mailbox;
 pub use packet::{Hits, Rays};
 pub use primitives::Primitives;
-pub use stats::Stats;
+pub use stats::{Counters, NoStats, Stats};
 pub use trace::{Exec, PacketSize};

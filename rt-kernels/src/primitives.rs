@@ -10,7 +10,7 @@ use crate::packet::{Frame, Packet, Query};
 use crate::quadric::cone::{self, ConeRecord};
 use crate::quadric::sphere;
 use crate::tri::{self, Method, Record, TriangleKernel};
-use crate::{BuildError, Stats};
+use crate::{BuildError, Counters};
 
 /// The primitives of a scene. They are numbered in this order: triangles first, then spheres, then
 /// cones.
@@ -266,11 +266,11 @@ impl Store {
         packet: &Packet<V>,
         frame: &F,
         query: &mut Q,
-        stats: &mut Stats,
+        stats: &mut impl Counters,
     ) {
         let tests = (slots.len() * V::LANES) as u64;
         if slots.end <= self.triangles.len() {
-            stats.triangle_tests += tests;
+            stats.count(|stats| stats.triangle_tests += tests);
             if K::IN_OWN_BOX {
                 for triangle in &self.triangles[slots] {
                     tri::intersect::<K, V, F, _, Q>(s, triangle, packet, frame, query);
@@ -285,12 +285,12 @@ impl Store {
         }
         let [_, spheres, cones] = self.slots_by_kind();
         if slots.end <= spheres.end {
-            stats.sphere_tests += tests;
+            stats.count(|stats| stats.sphere_tests += tests);
             for sphere in &self.spheres[slots.start - spheres.start..slots.end - spheres.start] {
                 sphere::intersect(s, sphere, packet, frame, query);
             }
         } else {
-            stats.cone_tests += tests;
+            stats.count(|stats| stats.cone_tests += tests);
             for cone in &self.cones[slots.start - cones.start..slots.end - cones.start] {
                 cone::intersect(s, cone, packet, frame, query);
             }

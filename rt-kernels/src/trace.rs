@@ -8,7 +8,7 @@ use crate::accelerator::Visitor;
 use crate::bvh::layout::SkipArray;
 use crate::packet::{Any, Closest, Frame, Hits, LARGE, Packet, Query, Rays};
 use crate::tri::{Method, TriangleKernel, with_kernel};
-use crate::{Accelerator, Brute, Ray, Stats, single};
+use crate::{Accelerator, Brute, Counters, Ray, Stats, single};
 
 /// How many rays a packet has. The hits are the same for all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,8 +21,10 @@ pub enum PacketSize {
     Single,
     /// Four rays.
     Four,
-    /// Eight rays; four on a level without registers.
+    /// Eight rays.
     Eight,
+    /// Sixteen rays.
+    Sixteen,
     /// As many as go together, up to 64: over [wide nodes](crate::Layout) alone, where it is the
     /// native size.
     Large,
@@ -52,11 +54,14 @@ impl Exec {
     }
 
     /// The nearest to it of what there is code for: where no register holds a packet, eight rays
-    /// gain nothing on four; large packets are for [wide nodes](crate::Layout).
+    /// gain nothing on four, and sixteen nothing on eight; large packets are for
+    /// [wide nodes](crate::Layout).
     pub(crate) fn compiled(self) -> Exec {
         let emulated = matches!(self.level, Level::Scalar(_));
         let packet = match self.packet {
-            PacketSize::Eight if emulated => PacketSize::Four,
+            PacketSize::Eight | PacketSize::Sixteen if emulated => PacketSize::Four,
+            PacketSize::Sixteen if self.level.lanes() == 16 => PacketSize::Native,
+            PacketSize::Sixteen => PacketSize::Eight,
             PacketSize::Large => PacketSize::Native,
             packet => packet,
         };
@@ -78,6 +83,7 @@ impl Exec {
             PacketSize::Single => 1,
             PacketSize::Four => 4,
             PacketSize::Eight => 8,
+            PacketSize::Sixteen => 16,
             PacketSize::Large => LARGE,
         }
     }
@@ -96,7 +102,7 @@ pub(crate) trait Traverse: Send + Sync {
         packet: &Packet<V>,
         frame: &F,
         query: &mut Q,
-        stats: &mut Stats,
+        stats: &mut impl Counters,
     );
 
     /// The triangle test that it was built for.
@@ -139,12 +145,12 @@ macro_rules! accelerator {
 accelerator!(Brute, any: any_by_closest);
 accelerator!(SkipArray, any: any);
 
-fn closest<T: Traverse + Accelerator>(
+pub(crate) fn closest<T: Traverse + Accelerator>(
     traverse: &T,
     exec: Exec,
     rays: &Rays,
     hits: &mut Hits,
-    stats: &mut Stats,
+    stats: &mut impl Counters,
 ) {
     hits.resize(rays.len());
     let exec = traverse.exec(exec);
@@ -153,12 +159,12 @@ fn closest<T: Traverse + Accelerator>(
     });
 }
 
-fn any<T: Traverse + Accelerator>(
+pub(crate) fn any<T: Traverse + Accelerator>(
     traverse: &T,
     exec: Exec,
     rays: &Rays,
     found: &mut Vec<bool>,
-    stats: &mut Stats,
+    stats: &mut impl Counters,
 ) {
     found.clear();
     found.resize(rays.len(), false);
@@ -174,7 +180,7 @@ fn any_by_closest<T: Traverse + Accelerator>(
     exec: Exec,
     rays: &Rays,
     found: &mut Vec<bool>,
-    stats: &mut Stats,
+    stats: &mut impl Counters,
 ) {
     let mut hits = Hits::new();
     closest(traverse, exec, rays, &mut hits, stats);
@@ -195,7 +201,7 @@ trait Batch {
         s: V::Simd,
         packet: &Packet<V>,
         first: usize,
-        stats: &mut Stats,
+        stats: &mut impl Counters,
     );
 }
 
@@ -210,7 +216,7 @@ impl<T: Traverse, K: TriangleKernel> Batch for ClosestOf<'_, T, K> {
         s: V::Simd,
         packet: &Packet<V>,
         first: usize,
-        stats: &mut Stats,
+        stats: &mut impl Counters,
     ) {
         let mut query = Closest::new(s, packet);
         in_frame::<K, V, T, _>(self.0, s, packet, &mut query, stats);
@@ -229,7 +235,7 @@ impl<T: Traverse, K: TriangleKernel> Batch for AnyOf<'_, T, K> {
         s: V::Simd,
         packet: &Packet<V>,
         first: usize,
-        stats: &mut Stats,
+        stats: &mut impl Counters,
     ) {
         let mut query = Any::new(s, packet);
         in_frame::<K, V, T, _>(self.0, s, packet, &mut query, stats);
@@ -243,7 +249,7 @@ pub(crate) fn in_frame<K: TriangleKernel, V: SimdF32, T: Traverse, Q: Query<V>>(
     s: V::Simd,
     packet: &Packet<V>,
     query: &mut Q,
-    stats: &mut Stats,
+    stats: &mut impl Counters,
 ) {
     match packet.frame(s) {
         Ok(frame) => traverse.traverse::<K, V, _, Q>(s, packet, &frame, query, stats),
@@ -252,9 +258,9 @@ pub(crate) fn in_frame<K: TriangleKernel, V: SimdF32, T: Traverse, Q: Query<V>>(
 }
 
 /// Cuts a batch into packets, once the level and the packet size are known.
-fn run<B: Batch>(exec: Exec, rays: &Rays, batch: &mut B, stats: &mut Stats) {
+fn run<B: Batch>(exec: Exec, rays: &Rays, batch: &mut B, stats: &mut impl Counters) {
     match exec.packet {
-        PacketSize::Single => packets::<scalar::f32x1>(simd4::Scalar::new(), rays, batch, stats),
+        PacketSize::Single => packets::<scalar::f32x1, _>(simd4::Scalar::new(), rays, batch, stats),
         _ => match exec.lanes() {
             4 => dispatch!(exec.level, s => four(s, rays, batch, stats)),
             8 => dispatch!(exec.level, s => eight(s, rays, batch, stats)),
@@ -266,23 +272,23 @@ fn run<B: Batch>(exec: Exec, rays: &Rays, batch: &mut B, stats: &mut Stats) {
 // There is code only for what can come, and for no type twice.
 
 #[inline(always)]
-fn native<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
+fn native<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut impl Counters) {
     if const { S::LANES != 4 && S::LANES != 8 } {
-        packets::<S::f32s>(s, rays, batch, stats);
+        packets::<S::f32s, _>(s, rays, batch, stats);
     }
 }
 
 #[inline(always)]
-fn four<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) {
+fn four<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut impl Counters) {
     if const { B::ANY_PACKET || is_register::<S>(4) } {
-        packets::<S::f32x4>(s, rays, batch, stats);
+        packets::<S::f32x4, _>(s, rays, batch, stats);
     }
 }
 
 #[inline(always)]
-fn eight<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut Stats) {
+fn eight<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut impl Counters) {
     if const { B::ANY_PACKET && !S::EMULATED || is_register::<S>(8) } {
-        packets::<S::f32x8>(s, rays, batch, stats);
+        packets::<S::f32x8, _>(s, rays, batch, stats);
     }
 }
 
@@ -292,8 +298,13 @@ const fn is_register<S: Simd>(lanes: usize) -> bool {
 }
 
 #[inline(always)]
-fn packets<V: SimdF32>(s: V::Simd, rays: &Rays, batch: &mut impl Batch, stats: &mut Stats) {
-    let mut done = Stats::default();
+fn packets<V: SimdF32, C: Counters>(
+    s: V::Simd,
+    rays: &Rays,
+    batch: &mut impl Batch,
+    stats: &mut C,
+) {
+    let mut done = C::default();
     let mut first = 0;
     while first < rays.len() {
         batch.packet::<V>(s, &Packet::load(s, rays, first), first, &mut done);

@@ -24,6 +24,11 @@ fn plainest() -> Exec {
     Exec { level, packet: PacketSize::Single }
 }
 
+/// Packets of sixteen at every level, which there are over wide nodes alone.
+fn sixteens() -> Vec<Exec> {
+    Level::available().map(|level| Exec { level, packet: PacketSize::Sixteen }).collect()
+}
+
 /// The most unlike it.
 fn widest() -> Exec {
     Exec { packet: PacketSize::Eight, ..Exec::best().expect("a level") }
@@ -56,11 +61,7 @@ fn one_answer_with(
         // What a level and a packet size change does not depend on the builder.
         let execs = match (plan.builder == Builder::default(), plan.layout) {
             (true, Layout::Skip) => ways(),
-            // Packets of four and of eight come to large ones.
-            (true, _) => ways()
-                .into_iter()
-                .filter(|exec| !matches!(exec.packet, PacketSize::Four | PacketSize::Eight))
-                .collect(),
+            (true, _) => [ways(), sixteens()].concat(),
             _ => vec![plainest(), widest()],
         };
         for exec in execs {

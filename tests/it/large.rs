@@ -124,7 +124,34 @@ fn rays_that_go_together_share_visits() {
         bvh.closest(exec, rays, &mut Hits::new(), &mut stats);
         stats.node_visits
     };
-    let gain = |rays| visits(rays, PacketSize::Single) / visits(rays, PacketSize::Large);
-    assert!(gain(&from_eye) >= 10, "{}", gain(&from_eye));
-    assert!(gain(&scattered) >= 1, "{}", gain(&scattered));
+    let gain = |rays, packet| visits(rays, PacketSize::Single) / visits(rays, packet);
+    let sizes = [PacketSize::Four, PacketSize::Eight, PacketSize::Sixteen, PacketSize::Large];
+    let gains = sizes.map(|packet| gain(&from_eye, packet));
+    assert!(gains.is_sorted_by(|a, b| a < b) && gains[3] >= 10, "{gains:?}");
+    let gain = gain(&scattered, PacketSize::Large);
+    assert!(gain >= 1, "{gain}");
+}
+
+/// How many rays a packet has where it goes.
+#[test]
+fn packets_are_full_where_rays_are_alike() {
+    let scene = Mesh::icosphere(4).primitives();
+    let eye = Vec3::new(0.3, 0.2, 5.0);
+    let rays: Rays = (0..256)
+        .map(|i| aim::at(eye, Vec3::new((i % 16) as f32, (i / 16) as f32, 0.0) * 0.005))
+        .collect();
+    for layout in Layout::ALL {
+        let plan = Plan { layout, ..Plan::default() };
+        let bvh = Bvh::build_with(&scene, plan, &Sequential).expect("in range");
+        for packet in [PacketSize::Single, PacketSize::Four, PacketSize::Native] {
+            let exec = Exec { packet, ..Exec::best().expect("a level") };
+            let mut stats = Stats::default();
+            bvh.closest(exec, &rays, &mut Hits::new(), &mut stats);
+            let full = stats.active_rays as f64 / stats.node_visits as f64;
+            let most = bvh.exec(exec).lanes() as f64;
+            // Over a skip array a packet visits more than it goes on into.
+            let least = if layout == Layout::Skip { 0.2 * most } else { 0.5 * most };
+            assert!((least..=most).contains(&full), "{layout:?}, {packet:?}: {full} of {most}");
+        }
+    }
 }

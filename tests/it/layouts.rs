@@ -92,7 +92,7 @@ fn equal_distances_go_to_the_lowest_number() {
     }
 }
 
-/// Wide nodes are for single rays and large packets, and the default triangle test.
+/// Wide nodes are for packets of any size, and the default triangle test.
 #[test]
 fn a_choice_comes_to_what_there_is() {
     let scene = Primitives { triangles: vec![screen(0.0)], ..Primitives::default() };
@@ -110,11 +110,13 @@ fn a_choice_comes_to_what_there_is() {
                 Level::Scalar(_) => PacketSize::Four,
                 _ => PacketSize::Eight,
             };
+            let sixteen = if level.lanes() == 16 { PacketSize::Native } else { eight };
             let wide = WIDE.contains(&layout);
             for (packet, skip, large) in [
                 (PacketSize::Single, PacketSize::Single, PacketSize::Single),
-                (PacketSize::Four, PacketSize::Four, PacketSize::Large),
-                (PacketSize::Eight, eight, PacketSize::Large),
+                (PacketSize::Four, PacketSize::Four, PacketSize::Four),
+                (PacketSize::Eight, eight, PacketSize::Eight),
+                (PacketSize::Sixteen, sixteen, PacketSize::Sixteen),
                 (PacketSize::Native, PacketSize::Native, PacketSize::Large),
                 (PacketSize::Large, PacketSize::Native, PacketSize::Large),
             ] {

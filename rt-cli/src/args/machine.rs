@@ -21,7 +21,7 @@ pub(crate) struct MachineArgs {
     /// Rays that go together: native is up to 64 over wide nodes and elsewhere as many as a register
     /// has lanes.
     #[arg(long, value_name = "SIZE", default_value = "native",
-          value_parser = ["native", "1", "4", "8", "64"])]
+          value_parser = ["native", "1", "4", "8", "16", "64"])]
     packet: String,
     /// Threads to use [default: one a core].
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -42,8 +42,8 @@ pub(crate) struct BuildArgs {
     /// How the BVH is built.
     #[arg(long, value_enum, value_name = "NAME", default_value_t)]
     builder: BuilderArg,
-    /// How the BVH lies in memory. Wide nodes are for rays one by one and for 64 together, not for
-    /// packets of 4 and 8, and for the watertight triangle test alone: others keep skip.
+    /// How the BVH lies in memory. Wide nodes are for packets of all sizes, and for the watertight
+    /// triangle test alone: others keep skip.
     #[arg(long, value_enum, value_name = "NAME", default_value_t)]
     layout: LayoutArg,
 }
@@ -77,6 +77,7 @@ impl MachineArgs {
             "1" => PacketSize::Single,
             "4" => PacketSize::Four,
             "8" => PacketSize::Eight,
+            "16" => PacketSize::Sixteen,
             "64" => PacketSize::Large,
             _ => PacketSize::Native,
         };

@@ -18,7 +18,7 @@ pub use refit::RefitError;
 use crate::accelerator::Visitor;
 use crate::packet::{Hits, Rays};
 use crate::tri::Method;
-use crate::{Accelerator, Exec, Primitives, Ray, Stats};
+use crate::{Accelerator, Exec, NoStats, Primitives, Ray, Stats, trace};
 use build::Block;
 use layout::{SkipArray, Wide};
 
@@ -117,6 +117,29 @@ impl Bvh {
     /// The hierarchy stays as it was.
     pub fn refit(&mut self, primitives: &Primitives) -> Result<(), RefitError> {
         with_array!(&mut self.array, array => refit::refit(array, primitives))
+    }
+
+    /// As [`closest`](Accelerator::closest), and counts nothing. (Inlined, so that only who asks for it
+    /// compiles it.)
+    #[inline]
+    pub fn closest_uncounted(&self, exec: Exec, rays: &Rays, hits: &mut Hits) {
+        match &self.array {
+            Array::Skip(array) => trace::closest(array, exec, rays, hits, &mut NoStats),
+            Array::Bvh4(array) => array.trace(exec, rays, false, hits, &mut NoStats),
+            Array::Bvh8(array) => array.trace(exec, rays, false, hits, &mut NoStats),
+        }
+    }
+
+    /// As [`any`](Accelerator::any), and counts nothing. (Inlined, as above.)
+    #[inline]
+    pub fn any_uncounted(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>) {
+        let mut hits = Hits::new();
+        match &self.array {
+            Array::Skip(array) => return trace::any(array, exec, rays, found, &mut NoStats),
+            Array::Bvh4(array) => array.trace(exec, rays, true, &mut hits, &mut NoStats),
+            Array::Bvh8(array) => array.trace(exec, rays, true, &mut hits, &mut NoStats),
+        }
+        hits.found(found);
     }
 
     /// What it was built by: the layout is that which it has.

@@ -1,6 +1,6 @@
 //! Rays that wait for others of their class.
 
-use super::{Chunk, LARGE, Rays};
+use super::{Chunk, Rays};
 
 /// Signs of three axes times dominant axes.
 const CLASSES: usize = 8 * 3;
@@ -30,10 +30,10 @@ impl Buckets {
         }
     }
 
-    /// Whether a bucket has a chunk full of rays, or, if these are the last, any: they are taken out of
-    /// it.
-    pub fn take(&mut self, batch: &Rays, last: bool) -> bool {
-        let enough = if last { 1 } else { LARGE };
+    /// Whether a bucket has so many rays, up to [`LARGE`](super::LARGE), or, if these are the last, any: they are
+    /// taken out of it.
+    pub fn take(&mut self, batch: &Rays, most: usize, last: bool) -> bool {
+        let enough = if last { 1 } else { most };
         if self.waiting < enough {
             return false;
         }
@@ -42,7 +42,7 @@ impl Buckets {
         };
         self.places.clear();
         // In their order, which is that of neighbours.
-        self.places.extend(bucket.drain(..bucket.len().min(LARGE)));
+        self.places.extend(bucket.drain(..bucket.len().min(most)));
         self.rays.gather(batch, &self.places);
         self.waiting -= self.places.len();
         true

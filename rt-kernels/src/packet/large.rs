@@ -77,10 +77,10 @@ impl Default for Chunk {
 }
 
 impl Chunk {
-    /// Takes the rays from `first` on.
+    /// Takes the rays from `first` on, as many as `most`, up to [`LARGE`].
     #[inline(always)]
-    pub fn load<V: SimdF32>(&mut self, s: V::Simd, rays: &Rays, first: usize) {
-        self.count = (rays.len() - first).min(LARGE);
+    pub fn load<V: SimdF32>(&mut self, s: V::Simd, rays: &Rays, first: usize, most: usize) {
+        self.count = (rays.len() - first).min(most).min(LARGE);
         (self.negative, self.dominant, self.left) = ([0; 3], [0; 2], 0);
         let mut at = 0;
         while at < self.count {
@@ -102,6 +102,8 @@ impl Chunk {
             put(&mut self.hits.prim, at, V::U32::splat(s, Hits::NONE));
             at += V::LANES;
         }
+        // A register may have loaded some of those that come after.
+        self.left &= u64::MAX >> (LARGE - self.count.max(1));
     }
 
     /// The number of registers that hold the rays.

@@ -15,7 +15,7 @@ use std::collections::BinaryHeap;
 
 use simd4::{SimdF32, SimdMask};
 
-use crate::Stats;
+use crate::Counters;
 use crate::bvh::layout::SkipArray;
 use crate::packet::{Frame, Packet, Query};
 use crate::slab::{BoxKernel, Crossing, Viewed};
@@ -36,7 +36,7 @@ pub fn traverse<B, K, V, F, Q>(
     packet: &Packet<V>,
     frame: &F,
     query: &mut Q,
-    stats: &mut Stats,
+    stats: &mut impl Counters,
 ) where
     B: BoxKernel<Reciprocal = Division>,
     K: TriangleKernel,
@@ -78,6 +78,6 @@ pub fn traverse<B, K, V, F, Q>(
             None => (child, end) = (next as usize + 1, node.skip as usize),
         }
     }
-    stats.node_visits += visits;
-    stats.box_tests += visits * V::LANES as u64;
+    stats.count(|stats| stats.node_visits += visits);
+    stats.count(|stats| stats.box_tests += visits * V::LANES as u64);
 }

@@ -23,7 +23,7 @@ use std::ops::Range;
 use simd4::{Lanes, Simd, SimdF32, SimdMask};
 
 use super::wide::{self, Stack};
-use crate::Stats;
+use crate::Counters;
 use crate::bvh::layout::{Child, Wide, WideNode};
 use crate::packet::{Ask, Buckets, Chunk, Hits, LARGE, LargePacket, Rays, Single};
 use crate::quadric::{cone, sphere};
@@ -37,6 +37,16 @@ const NARROW: f32 = 0.25;
 
 /// The most triangles of a block times the most registers.
 const MAX_PAIRS: usize = 8 * LARGE / 4;
+
+/// Rays, and where to put what they hit.
+pub(crate) struct Batch<'a> {
+    pub(crate) rays: &'a Rays,
+    /// How many may go together, up to [`LARGE`].
+    pub(crate) most: usize,
+    /// Whether one hit is enough, and not the closest wanted.
+    pub(crate) any: bool,
+    pub(crate) hits: &'a mut Hits,
+}
 
 /// What a traversal needs besides the rays.
 pub(crate) struct Scratch {
@@ -66,32 +76,31 @@ impl Scratch {
     }
 }
 
-/// Finds the closest hits of all rays or, with `any`, whichever is found first. `B` has a lane for
-/// each child.
+/// Finds what a batch of rays hits. `B` has a lane for each child.
 ///
 /// Neighbours go together as long as they are alike. Others wait in [`Buckets`] for those of their
 /// class, wherever in the batch they are.
 #[inline(always)]
-pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, const N: usize>(
+pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
     s: S,
     wide: &Wide<N>,
-    rays: &Rays,
-    any: bool,
-    hits: &mut Hits,
-    stats: &mut Stats,
+    batch: Batch<'_>,
+    stats: &mut C,
 ) {
+    let Batch { rays, most, any, hits } = batch;
+    let mut done = C::default();
     let Scratch { mut chunk, mut buckets, mut large, mut single } = Scratch::new(wide);
     let mut first = 0;
     loop {
-        let waited = buckets.take(rays, first >= rays.len());
+        let waited = buckets.take(rays, most, first >= rays.len());
         if waited {
-            chunk.load::<S::f32s>(s, buckets.rays(), 0);
+            chunk.load::<S::f32s>(s, buckets.rays(), 0, most);
         } else if first < rays.len() {
-            chunk.load::<S::f32s>(s, rays, first);
-            first += LARGE;
+            chunk.load::<S::f32s>(s, rays, first, most);
+            first += most;
             if chunk.is_mixed() {
-                chunk.store(hits, first - LARGE);
-                buckets.put(&mut chunk, first - LARGE);
+                chunk.store(hits, first - most);
+                buckets.put(&mut chunk, first - most);
                 continue;
             }
         } else {
@@ -99,28 +108,29 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, const N: usize>(
         }
         while let Some(class) = chunk.next_class() {
             let packet = LargePacket::new(&mut chunk, class, any);
-            let (large, single) = (&mut *large, &mut single);
+            let (large, single, stats) = (&mut *large, &mut single, &mut done);
             Traversal { s, wide, large, single, packet, stats }.trace::<B>(class.rays);
         }
         if waited {
             chunk.scatter(hits, buckets.places());
         } else {
-            chunk.store(hits, first - LARGE);
+            chunk.store(hits, first - most);
         }
     }
+    *stats += done;
 }
 
 /// Rays of one class on their way through a hierarchy.
-pub(super) struct Traversal<'a, S: Simd, const N: usize> {
+pub(super) struct Traversal<'a, S: Simd, C: Counters, const N: usize> {
     pub(super) s: S,
     pub(super) wide: &'a Wide<N>,
     large: &'a mut [Entry],
     single: &'a mut Stack,
     pub(super) packet: LargePacket<'a>,
-    pub(super) stats: &'a mut Stats,
+    pub(super) stats: &'a mut C,
 }
 
-impl<S: Simd, const N: usize> Traversal<'_, S, N> {
+impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     /// Finds what those rays hit.
     #[inline(always)]
     fn trace<B: SimdF32<Simd = S>>(&mut self, rays: u64) {
@@ -148,7 +158,8 @@ impl<S: Simd, const N: usize> Traversal<'_, S, N> {
                 Err(slots) => self.leaf::<B>(culling, &slots, rays),
                 Ok(node) => {
                     let Some(node) = wide.nodes().get(node) else { break };
-                    self.stats.node_visits += 1;
+                    self.stats.count(|stats| stats.node_visits += 1);
+                    self.stats.count(|stats| stats.active_rays += u64::from(rays.count_ones()));
                     let Children { mut lanes, enter, rays } =
                         self.children::<B, W>(culling, node, rays, limit);
                     let first = top;
@@ -212,7 +223,7 @@ impl<S: Simd, const N: usize> Traversal<'_, S, N> {
                 if of_group::<S>(rays, g) == 0 {
                     continue;
                 }
-                self.stats.box_tests += S::LANES as u64;
+                self.stats.count(|stats| stats.box_tests += S::LANES as u64);
                 let may_hit = W::may_hit::<B, S::f32s, N>(s, node, &seen, lane, &self.packet, g);
                 passing |= u64::from(may_hit.bitmask()) << (g * S::LANES % LARGE);
             }
@@ -240,7 +251,7 @@ impl<S: Simd, const N: usize> Traversal<'_, S, N> {
                     if rays == 0 {
                         continue;
                     }
-                    self.stats.triangle_tests += S::LANES as u64;
+                    self.stats.count(|stats| stats.triangle_tests += S::LANES as u64);
                     let [x, y] = self.packet.slopes(s, g);
                     pairs[count % MAX_PAIRS] = (lane as u8, g as u8);
                     count += usize::from(triangle.may_hit(x, y).bitmask() & rays != 0);
@@ -262,7 +273,7 @@ impl<S: Simd, const N: usize> Traversal<'_, S, N> {
                 if of_group::<S>(rays, g) == 0 {
                     continue;
                 }
-                self.stats.sphere_tests += S::LANES as u64;
+                self.stats.count(|stats| stats.sphere_tests += S::LANES as u64);
                 let (packet, frame) = self.packet.group::<S::f32s>(s, g);
                 sphere::intersect(s, record, &packet, &frame, &mut self.packet.query(s, g));
             }
@@ -272,7 +283,7 @@ impl<S: Simd, const N: usize> Traversal<'_, S, N> {
                 if of_group::<S>(rays, g) == 0 {
                     continue;
                 }
-                self.stats.cone_tests += S::LANES as u64;
+                self.stats.count(|stats| stats.cone_tests += S::LANES as u64);
                 let (packet, frame) = self.packet.group::<S::f32s>(s, g);
                 cone::intersect(s, record, &packet, &frame, &mut self.packet.query(s, g));
             }

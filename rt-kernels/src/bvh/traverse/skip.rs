@@ -4,9 +4,9 @@
 //! 2003, Section 3.3; Smits 1998. Deviation: nodes behind what was already found are skipped. The
 //! box test is an argument: [`Robust`] where it renders.
 
-use simd4::SimdF32;
+use simd4::{SimdF32, SimdMask};
 
-use crate::Stats;
+use crate::Counters;
 use crate::bvh::layout::SkipArray;
 use crate::packet::{Frame, Packet, Query};
 use crate::slab::{BoxKernel, Robust, Viewed};
@@ -24,7 +24,7 @@ pub fn traverse<B, K, V, F, Q>(
     packet: &Packet<V>,
     frame: &F,
     query: &mut Q,
-    stats: &mut Stats,
+    stats: &mut impl Counters,
 ) where
     B: BoxKernel<Reciprocal = Division>,
     K: TriangleKernel,
@@ -36,12 +36,14 @@ pub fn traverse<B, K, V, F, Q>(
     let viewed = Viewed::by::<B>(s, packet);
     let mut i = 0;
     let mut visits = 0;
+    let mut active = 0;
     while let Some(node) = nodes.get(i) {
         visits += 1;
-        if viewed.test::<B, F>(s, &node.aabb, frame, query.limit()).is_none() {
+        let Some(crossing) = viewed.test::<B, F>(s, &node.aabb, frame, query.limit()) else {
             i = node.skip as usize;
             continue;
-        }
+        };
+        active += u64::from(crossing.mask.bitmask().count_ones());
         i += 1;
         if let Some(slots) = node.slots() {
             array.store.intersect::<K, V, F, Q>(s, slots, packet, frame, query, stats);
@@ -50,8 +52,9 @@ pub fn traverse<B, K, V, F, Q>(
             }
         }
     }
-    stats.node_visits += visits;
-    stats.box_tests += visits * V::LANES as u64;
+    stats.count(|stats| stats.node_visits += visits);
+    stats.count(|stats| stats.active_rays += active);
+    stats.count(|stats| stats.box_tests += visits * V::LANES as u64);
 }
 
 impl Traverse for SkipArray {
@@ -64,7 +67,7 @@ impl Traverse for SkipArray {
         packet: &Packet<V>,
         frame: &F,
         query: &mut Q,
-        stats: &mut Stats,
+        stats: &mut impl Counters,
     ) {
         traverse::<Robust, K, V, F, Q>(s, self, packet, frame, query, stats);
     }

@@ -27,7 +27,7 @@ use crate::quadric::{cone, sphere};
 use crate::slab::{BoxKernel, Crossing, Robust};
 use crate::tri::knobs::Division;
 use crate::tri::{self, BlockLanes, Watertight};
-use crate::{Hit, Ray, Stats};
+use crate::{Counters, Hit, Ray};
 
 /// Children that are still to be visited.
 pub struct Stack(Vec<Entry>);
@@ -55,7 +55,7 @@ pub(crate) fn trace<V: SimdF32, const N: usize>(
     stack: &mut Stack,
     ray: &Ray,
     ask: Ask<'_>,
-    stats: &mut Stats,
+    stats: &mut impl Counters,
 ) -> Hit {
     let packet = Packet::<V>::splat(s, ray);
     let mut query = Single::new(&packet, ask);
@@ -78,7 +78,7 @@ pub(crate) fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
     packet: &Packet<V>,
     frame: &F,
     query: &mut Single<'_, V>,
-    stats: &mut Stats,
+    stats: &mut impl Counters,
 ) {
     let nodes = wide.nodes();
     let stack = &mut *stack.0;
@@ -100,16 +100,16 @@ pub(crate) fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
             }
             Err(slots) => {
                 for block in wide.blocks(&slots) {
-                    stats.triangle_tests += N as u64;
+                    stats.count(|stats| stats.triangle_tests += N as u64);
                     let triangles = BlockLanes::new(block, 0);
                     tri::intersect::<Watertight, V, F, _, _>(s, &triangles, packet, frame, query);
                 }
                 for record in wide.spheres(&slots) {
-                    stats.sphere_tests += 1;
+                    stats.count(|stats| stats.sphere_tests += 1);
                     sphere::intersect(s, record, packet, frame, query);
                 }
                 for record in wide.cones(&slots) {
-                    stats.cone_tests += 1;
+                    stats.count(|stats| stats.cone_tests += 1);
                     cone::intersect(s, record, packet, frame, query);
                 }
                 if query.done(s) {
@@ -128,8 +128,9 @@ pub(crate) fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
             }
         }
     }
-    stats.node_visits += visits;
-    stats.box_tests += visits * N as u64;
+    stats.count(|stats| stats.node_visits += visits);
+    stats.count(|stats| stats.active_rays += visits);
+    stats.count(|stats| stats.box_tests += visits * N as u64);
 }
 
 /// Of the children in these lanes the nearest; the others are put on the stack, the nearer the

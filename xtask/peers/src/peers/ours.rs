@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use rt_kernels::{
-    Accelerator, Builder, Bvh, Exec, Hits, Join, Layout, PacketSize, Plan, Primitives, Rays, Stats,
+    Accelerator, Builder, Bvh, Exec, Hits, Join, Layout, PacketSize, Plan, Primitives, Rays,
 };
 use simd4::Level;
 
@@ -141,16 +141,15 @@ impl Way for Run<'_> {
     }
 
     fn run(&mut self) {
-        let stats = &mut Stats::default();
         match &mut self.results {
             Results::Closest(hits) => {
                 for (rays, hits) in self.batches.iter().zip(hits) {
-                    self.bvh.closest(self.exec, rays, hits, stats);
+                    self.bvh.closest_uncounted(self.exec, rays, hits);
                 }
             }
             Results::Any(found) => {
                 for (rays, found) in self.batches.iter().zip(found) {
-                    self.bvh.any(self.exec, rays, found, stats);
+                    self.bvh.any_uncounted(self.exec, rays, found);
                 }
             }
         }
