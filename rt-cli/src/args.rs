@@ -1,31 +1,39 @@
 //! The command line.
 
+mod compare;
+mod convert;
 mod machine;
+mod output;
 mod paper;
+mod values;
 
+pub(crate) use compare::CompareArgs;
+pub(crate) use convert::{CompletionsArgs, ConvertArgs};
 pub(crate) use machine::{BuildArgs, MachineArgs, best_level};
+pub(crate) use output::{PictureOutputArgs, picture_format};
 pub(crate) use paper::{GeimerMuellerArgs, Paper, PaperArgs, Wald2001Args};
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
 use clap::{Args as Group, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
 use rt_accuracy::Setting;
-use rt_render::{Integrator, Method};
+use rt_render::{Crop, Integrator, Method};
 use rt_scene::{Light, Scene};
 
 use crate::error::Error;
+use values::{angle, color, crop, light, offset, scale, size, tolerance, vec3};
 
 /// What every command takes as a scene.
-const SCENE: &str = "An OBJ or NFF file, or spd:NAME[:SIZE] for a procedural scene: spd:balls";
+const SCENE: &str = "An OBJ, NFF or AFF file, or spd:NAME[:SIZE] for a procedural scene: spd:balls";
 
 /// A ray tracer that gives the same bits on every machine.
 #[derive(Parser)]
 #[command(name = "rt", version, max_term_width = 100, disable_help_subcommand = true)]
 #[command(after_help = "Begin with:\n  \
     rt render spd:balls -o balls.png\n\n\
-    Exit codes: 0 done, 1 failed, 2 wrong usage, 3 less accurate than it should be, 130 interrupted")]
+    Exit codes: 0 done, 1 failed, 2 wrong usage, 3 a threshold was missed, 130 interrupted")]
 pub(crate) struct Args {
     /// What to do.
     #[command(subcommand)]
@@ -41,7 +49,10 @@ pub(crate) enum Command {
     Bench(BenchArgs),
     Accuracy(AccuracyArgs),
     Chart(ChartArgs),
+    Compare(CompareArgs),
+    Convert(ConvertArgs),
     Paper(PaperArgs),
+    Completions(CompletionsArgs),
 }
 
 /// Render one picture of a scene.
@@ -50,21 +61,22 @@ pub(crate) enum Command {
 /// own, or one at the eye; every core works at the best level that the CPU has. Where nothing of a
 /// scene can be seen, the picture shows the background.
 ///
-/// A file that is there already is replaced when the picture is complete, and not before.
+/// A file that is there already is replaced when the picture is complete, and not before. Ctrl-C keeps
+/// what is finished in FILE.part, and --resume goes on with it.
 #[derive(Group)]
 #[command(after_help = "Examples:\n  \
     rt render bunny.obj -o bunny.png\n  \
     rt render spd:balls -s 1024x1024 -o balls.png\n  \
-    rt render room.obj --eye 1,2,5 --target 0,1,0 --light 0,3,0 -o room.png")]
+    rt render room.obj --eye 1,2,5 --target 0,1,0 --light 0,3,0 -o room.png\n  \
+    rt render spd:tree -s 4096x4096 -o tree.exr --resume\n  \
+    rt render spd:balls --crop 200,150,64,64 -o part.png")]
 pub(crate) struct RenderArgs {
     #[arg(help = SCENE)]
     pub(crate) scene: OsString,
-    /// The PNG file to write; - for standard output.
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: PathBuf,
-
     #[command(flatten)]
-    pub(crate) tessellate: TessellateArgs,
+    pub(crate) output: PictureOutputArgs,
+    #[command(flatten)]
+    pub(crate) opening: OpenArgs,
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
     #[command(flatten)]
@@ -75,8 +87,11 @@ pub(crate) struct RenderArgs {
     pub(crate) machine: MachineArgs,
 
     /// Say nothing but errors.
-    #[arg(short, long, help_heading = "Talk")]
+    #[arg(short, long, help_heading = "Talk", conflicts_with = "verbose")]
     pub(crate) quiet: bool,
+    /// Say more: what was read and built, and what each kind of ray took.
+    #[arg(short, long, help_heading = "Talk")]
+    pub(crate) verbose: bool,
     /// How progress is shown: auto is a bar on a terminal, lines elsewhere and under CI.
     #[arg(long, value_enum, value_name = "HOW", default_value_t, help_heading = "Talk")]
     pub(crate) progress: ProgressKind,
@@ -92,6 +107,10 @@ pub(crate) struct PictureArgs {
     /// Width and height in pixels [default: the scene's, or 512x512].
     #[arg(short, long, value_name = "WxH", value_parser = size)]
     pub(crate) size: Option<(u32, u32)>,
+    /// Render only a rectangle of it, as it is in the whole: the column and row of its upper left
+    /// corner, its width and height [default: all].
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
+    pub(crate) crop: Option<Crop>,
     /// Where the camera is [default: the scene's, or such that all is in the picture].
     #[arg(long, value_name = "X,Y,Z", value_parser = vec3, allow_hyphen_values = true)]
     pub(crate) eye: Option<Vec3>,
@@ -128,6 +147,17 @@ pub(crate) struct ShadingArgs {
     pub(crate) no_shadows: bool,
 }
 
+/// How a scene is opened.
+#[derive(Group)]
+pub(crate) struct OpenArgs {
+    /// Take it for an error if a file that the scene names cannot be read: a material library or a
+    /// texture.
+    #[arg(long)]
+    strict: bool,
+    #[command(flatten)]
+    tessellate: TessellateArgs,
+}
+
 /// What is made of a scene before anything else.
 #[derive(Group)]
 pub(crate) struct TessellateArgs {
@@ -136,6 +166,17 @@ pub(crate) struct TessellateArgs {
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "4",
           value_parser = clap::value_parser!(u32).range(1..=1024))]
     tessellate: Option<u32>,
+}
+
+impl OpenArgs {
+    /// A scene by its name, or its tessellation.
+    pub(crate) fn open(&self, name: &OsStr) -> Result<Scene, Error> {
+        let scene = rt_scene::open(name)?;
+        match self.strict && !scene.facts.missing.is_empty() {
+            true => Err(Error::Missing(scene.facts.missing)),
+            false => self.tessellate.apply(scene),
+        }
+    }
 }
 
 impl TessellateArgs {
@@ -175,7 +216,8 @@ impl PrecisionArgs {
 /// Write a procedural scene to a file.
 ///
 /// The extension of the file tells the format: .nff, or .obj for scenes of polygons alone, which
-/// --tessellate makes of any. Without a file, NFF goes to standard output.
+/// --tessellate makes of any; beside the OBJ go its materials, as .mtl. Without a file, NFF goes to
+/// standard output.
 #[derive(Group)]
 #[command(after_help = "Examples:\n  \
     rt gen balls -o balls.nff\n  \
@@ -201,7 +243,7 @@ pub(crate) struct InfoArgs {
     #[arg(help = SCENE)]
     pub(crate) scene: Option<OsString>,
     #[command(flatten)]
-    pub(crate) tessellate: TessellateArgs,
+    pub(crate) opening: OpenArgs,
     /// Answer as JSON.
     #[arg(long)]
     pub(crate) json: bool,
@@ -219,10 +261,10 @@ pub(crate) struct InfoArgs {
     rt bench bunny.obj --layouts\n  \
     rt bench spd:balls --json balls.json")]
 pub(crate) struct BenchArgs {
-    #[arg(value_name = "SCENE", required = true, help = SCENE)]
+    #[arg(value_name = "SCENE", default_value = "spd:balls", help = SCENE)]
     pub(crate) scenes: Vec<OsString>,
     #[command(flatten)]
-    pub(crate) tessellate: TessellateArgs,
+    pub(crate) opening: OpenArgs,
     /// Width and height in pixels.
     #[arg(short, long, value_name = "WxH", value_parser = size, default_value = "512x512")]
     pub(crate) size: (u32, u32),
@@ -360,6 +402,8 @@ pub(crate) enum IntegratorArg {
     Normals,
     /// Distance as grey.
     Depth,
+    /// Nodes and tests of each ray as colours, white at 255: depends on --accel and how it is built.
+    Heat,
 }
 
 impl From<IntegratorArg> for Integrator {
@@ -369,6 +413,7 @@ impl From<IntegratorArg> for Integrator {
             IntegratorArg::Eyelight => Integrator::Eyelight,
             IntegratorArg::Normals => Integrator::Normals,
             IntegratorArg::Depth => Integrator::Depth,
+            IntegratorArg::Heat => Integrator::Heat,
         }
     }
 }
@@ -399,74 +444,6 @@ fn names() -> String {
     format!("The scene's name: {}", scenes.collect::<Vec<_>>().join(", "))
 }
 
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let (width, height) = text.split_once('x').ok_or("expected WIDTHxHEIGHT, as in 640x480")?;
-    let number = |text: &str| match text.parse() {
-        Ok(pixels) if pixels > 0 => Ok(pixels),
-        _ => Err(format!("{text:?} is not a number of pixels")),
-    };
-    Ok((number(width)?, number(height)?))
-}
-
-fn numbers(text: &str) -> Result<Vec<f32>, String> {
-    let number = |text: &str| match text.trim().parse::<f32>() {
-        Ok(x) if x.is_finite() => Ok(x),
-        _ => Err(format!("{text:?} is not a finite number")),
-    };
-    text.split(',').map(number).collect()
-}
-
-fn vec3(text: &str) -> Result<Vec3, String> {
-    match numbers(text)?[..] {
-        [x, y, z] => Ok(Vec3::new(x, y, z)),
-        _ => Err("expected three numbers with commas between them".into()),
-    }
-}
-
-fn color(text: &str) -> Result<Vec3, String> {
-    match vec3(text)? {
-        color if color.min_element() < 0.0 => Err("a colour has no negative parts".into()),
-        color => Ok(color),
-    }
-}
-
-fn light(text: &str) -> Result<Light, String> {
-    match numbers(text)?[..] {
-        [x, y, z] => Ok(Light { position: Vec3::new(x, y, z), color: Vec3::ONE }),
-        [x, y, z, r, g, b] => Ok(Light { position: Vec3::new(x, y, z), color: Vec3::new(r, g, b) }),
-        _ => Err("expected three numbers, or six with a colour".into()),
-    }
-}
-
-/// A size that the kernels make promises for.
-fn scale(text: &str) -> Result<f32, String> {
-    match numbers(text)?[..] {
-        [scale] if (1e-6..=1e6).contains(&scale) => Ok(scale),
-        _ => Err("expected a size from 1e-6 to 1e6".into()),
-    }
-}
-
-fn offset(text: &str) -> Result<f32, String> {
-    match numbers(text)?[..] {
-        [offset] if (0.0..=1e6).contains(&offset) => Ok(offset),
-        _ => Err("expected a distance from 0 to 1e6".into()),
-    }
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(pixels) if pixels.is_finite() && pixels.is_sign_positive() => Ok(pixels),
-        _ => Err("expected a number of pixels, 0 or more".into()),
-    }
-}
-
-fn angle(text: &str) -> Result<f32, String> {
-    match numbers(text)?[..] {
-        [degrees] if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
-        _ => Err("expected an angle between 0 and 180 degrees".into()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use rt_render::Level;
@@ -485,32 +462,5 @@ mod tests {
             let args = ["rt", "render", "a.obj", "-o", "a.png", "--isa", level.name()];
             assert!(Args::try_parse_from(args).is_ok(), "{level}");
         }
-    }
-
-    #[test]
-    fn values_are_read_whole_or_refused() {
-        assert_eq!(size("640x480"), Ok((640, 480)));
-        for bad in ["640", "0x5", "5x0", "x", "-1x5", "5x5x5", "4294967296x1"] {
-            assert!(size(bad).is_err(), "{bad}");
-        }
-        assert_eq!(vec3("-1, 2.5,3e2"), Ok(Vec3::new(-1.0, 2.5, 300.0)));
-        for bad in ["", "1,2", "1,2,3,4", "1,2,nan", "1,2,inf", "1,2,1e39", "1;2;3"] {
-            assert!(vec3(bad).is_err(), "{bad}");
-        }
-        assert_eq!(light("1,2,3").unwrap().color, Vec3::ONE);
-        assert_eq!(light("1,2,3,4,5,6").unwrap().color, Vec3::new(4.0, 5.0, 6.0));
-        assert!(light("1,2,3,4").is_err());
-        assert!(color("0,-1,0").is_err() && color("0,0.5,9").is_ok());
-        assert_eq!((tolerance("0"), tolerance("0.5")), (Ok(0.0), Ok(0.5)));
-        for bad in ["", "-1", "-0.0", "nan", "inf", "1px", "1,5"] {
-            assert!(tolerance(bad).is_err(), "{bad}");
-        }
-        assert_eq!((scale("1e-6"), scale("1e6")), (Ok(1e-6), Ok(1e6)));
-        assert_eq!((offset("0"), offset("1e6")), (Ok(0.0), Ok(1e6)));
-        for bad in ["", "0", "-1", "2e6", "nan", "1,1"] {
-            assert!(scale(bad).is_err(), "{bad}");
-            assert!(bad == "0" || offset(bad).is_err(), "{bad}");
-        }
-        assert!(angle("0").is_err() && angle("180").is_err() && angle("45").is_ok());
     }
 }

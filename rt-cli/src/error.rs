@@ -49,10 +49,61 @@ pub(crate) enum Error {
         source: io::Error,
     },
     /// A picture cannot be encoded.
-    #[error("cannot encode the picture: {0}")]
-    Encode(#[from] png::EncodingError),
+    #[error(transparent)]
+    Encode(#[from] rt_picture::Error),
+    /// A file is no picture that can be read.
+    #[error("{}: {source}", path.display())]
+    Picture {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: rt_picture::Error,
+    },
+    /// Pictures of different sizes are not compared.
+    #[error(
+        "the sizes differ: {} has {}x{} pixels, {} has {}x{}",
+        a.0.display(), a.1, a.2, b.0.display(), b.1, b.2
+    )]
+    Sizes {
+        /// A picture, its width and its height.
+        a: (PathBuf, u32, u32),
+        /// The other's.
+        b: (PathBuf, u32, u32),
+    },
+    /// Pictures differ by more than they may.
+    #[error("too different: {}", .0.join("; "))]
+    Different(Vec<String>),
+    /// Flags that do not go together, where clap cannot know.
+    #[error("{0}\n\nFor more information, try '--help'.")]
+    Usage(String),
+    /// Files that a scene names cannot be read, and that is taken for an error.
+    #[error("files of the scene are missing:\n  {}", .0.join("\n  "))]
+    Missing(Vec<String>),
+    /// A part of an interrupted picture is there.
+    #[error(
+        "{} is there, of a picture that was interrupted: --resume goes on with it, \
+         --overwrite begins anew", .0.display()
+    )]
+    PartThere(PathBuf),
+    /// A part that is there is not one of this picture.
+    #[error("{} is {why}: --overwrite begins anew", path.display())]
+    OtherPart {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        why: String,
+    },
+    /// There is no place to keep a part.
+    #[error("--resume takes a file to write to: {} is none", .0.display())]
+    NoPart(PathBuf),
+    /// Ctrl-C cannot be listened to.
+    #[error("cannot listen to interrupts: {}", reason(.0))]
+    Signal(io::Error),
+    /// The user did not want to wait.
+    #[error("{0}")]
+    Interrupted(String),
     /// The extension of an output file is of no format that is written.
-    #[error("cannot write {}: give it the extension .{}", path.display(), known.join(" or ."))]
+    #[error("cannot write {}: give it the extension .{}", path.display(), extensions(known))]
     OutputFormat {
         /// The file.
         path: PathBuf,
@@ -81,10 +132,12 @@ pub(crate) enum Error {
 }
 
 impl Error {
-    /// What the program says to scripts: 3 for a threshold that was missed, 1 for all else.
+    /// What the program says to scripts.
     pub(crate) fn exit_code(&self) -> ExitCode {
         match self {
-            Error::Inaccurate(_) => ExitCode::from(3),
+            Error::Inaccurate(_) | Error::Different(_) => ExitCode::from(3),
+            Error::Usage(_) => ExitCode::from(2),
+            Error::Interrupted(_) => ExitCode::from(130),
             _ => ExitCode::FAILURE,
         }
     }
@@ -92,6 +145,14 @@ impl Error {
     /// Whether its text begins with the place that it is about.
     pub(crate) fn has_place(&self) -> bool {
         matches!(self, Error::Scene(rt_scene::Error::Invalid(_)) | Error::Rows { .. })
+    }
+}
+
+/// `.a, .b or .c`.
+fn extensions(known: &[&str]) -> String {
+    match known {
+        [first @ .., last] if !first.is_empty() => format!("{} or .{last}", first.join(", .")),
+        _ => known.concat(),
     }
 }
 
@@ -116,6 +177,16 @@ mod tests {
         let missed = Error::Inaccurate(vec!["a".to_owned(), "b".to_owned()]);
         assert_eq!(missed.to_string(), "less accurate than it should be:\n  a\n  b");
         assert_eq!(missed.exit_code(), ExitCode::from(3));
+        assert_eq!(Error::Different(vec![]).exit_code(), ExitCode::from(3));
+        assert_eq!(Error::Usage(String::new()).exit_code(), ExitCode::from(2));
+        assert_eq!(Error::Interrupted(String::new()).exit_code(), ExitCode::from(130));
         assert_eq!(Error::SameOutput("x".into()).exit_code(), ExitCode::FAILURE);
+    }
+
+    #[test]
+    fn extensions_are_listed_as_people_do() {
+        assert_eq!(extensions(&["a"]), "a");
+        assert_eq!(extensions(&["a", "b"]), "a or .b");
+        assert_eq!(extensions(&["a", "b", "c"]), "a, .b or .c");
     }
 }

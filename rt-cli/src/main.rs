@@ -1,5 +1,5 @@
 //! `rt`: renders, inspects and measures scenes. Thin: what it does is done by rt-scene,
-//! rt-render and rt-accuracy.
+//! rt-picture, rt-render and rt-accuracy.
 #![forbid(unsafe_code)]
 
 mod args;
@@ -23,6 +23,9 @@ fn main() -> ExitCode {
         args::Command::Bench(args) => cmd::bench::run(args),
         args::Command::Accuracy(args) => cmd::accuracy::run(args),
         args::Command::Chart(args) => cmd::chart::run(args),
+        args::Command::Compare(args) => cmd::compare::run(args),
+        args::Command::Convert(args) => cmd::convert::run(args),
+        args::Command::Completions(args) => cmd::completions::run(args),
         args::Command::Paper(args) => cmd::paper::run(args),
     };
     match done {

@@ -1,5 +1,6 @@
-//! What every scene that a reader returns must be, whatever it has read.
+//! What every scene and picture that a reader returns must be, whatever it has read.
 
+use rt_picture::Picture;
 use rt_scene::{Error, Scene};
 
 /// Looks for nonsense in what a reader made of random input. An error is as good an answer as any,
@@ -33,5 +34,22 @@ pub fn check(read: Result<Scene, Error>) {
         let finite = ends.iter().all(|end| end.is_finite()) && radii.iter().all(|r| r.is_finite());
         let sound = ends[0] != ends[1] && radii.iter().all(|&r| r >= 0.0) && radii != [0.0; 2];
         assert!(finite && sound, "no cone: {cone:?}");
+    }
+}
+
+/// Looks for nonsense in what a reader made of random input, likewise.
+///
+/// # Panics
+/// If it finds some.
+pub fn check_picture(read: Result<Picture, rt_picture::Error>) {
+    match read {
+        Ok(picture) => {
+            let size = picture.width as usize * picture.height as usize;
+            assert!(size > 0 && picture.pixels.len() == size, "pixels are missing");
+        }
+        Err(error) => {
+            let words = error.to_string();
+            assert!(!words.is_empty() && words.len() < 500, "an error without words, or too many");
+        }
     }
 }

@@ -28,6 +28,7 @@ fn scenes() -> [Scene; 5] {
 fn job(world: &World, scene: &Scene, integrator: Integrator, exec: Exec) -> Job {
     Job {
         size: SIZE,
+        crop: None,
         view: scene.view.unwrap_or_else(|| fitted_view(world.bounds(), SIZE, Vec3::Y, 40.0)),
         lights: scene.lights.clone(),
         background: scene.background.unwrap_or(Vec3::splat(0.1)),

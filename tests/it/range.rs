@@ -17,6 +17,7 @@ fn picture(scene: &Scene, integrator: Integrator) -> Film {
     let world = World::build(scene.clone(), AccelKind::Bvh, 1).expect("a scene of any scale");
     let job = Job {
         size: SIZE,
+        crop: None,
         view: scene.view.unwrap_or_else(|| fitted_view(world.bounds(), SIZE, Vec3::Y, 40.0)),
         lights: scene.lights.clone(),
         background: Vec3::splat(0.125),

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use xshell::{Shell, cmd};
 
 /// The targets, files in tests/fuzz/targets.
-const TARGETS: [&str; 3] = ["obj", "mtl", "nff"];
+const TARGETS: [&str; 8] = ["obj", "mtl", "nff", "aff", "png", "pfm", "exr", "part"];
 
 /// What makes LLVM count the edges that a run takes, as cargo-fuzz does, and checks arithmetic.
 const FLAGS: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
@@ -102,7 +102,7 @@ mod tests {
         let options = |target: &str, seconds| Ok(Options { target: target.to_owned(), seconds });
         assert_eq!(Options::parse(&["obj"]), options("obj", 60));
         assert_eq!(Options::parse(&["nff", "--seconds", "5"]), options("nff", 5));
-        for args in [&[][..], &["png"], &["obj", "--seconds"], &["obj", "--seconds", "x"]] {
+        for args in [&[][..], &["jpg"], &["obj", "--seconds"], &["obj", "--seconds", "x"]] {
             assert!(Options::parse(args).is_err(), "{args:?}");
         }
     }

@@ -46,7 +46,7 @@ usage: cargo xtask <command>
        --bless      state in the documentation what is compiled now
   tidy              the checks of ci that compile nothing: format, which words stand in which
                     rooms, and which crate uses which
-  fuzz obj|mtl|nff [--seconds N]
+  fuzz TARGET [--seconds N]
                     random input for a reader, guided by coverage, for a minute or so long
   peers [ARGUMENTS] our kernels beside Embree's and those of other crates, on the same rays; Embree
                     is loaded from what `pip install embreex` installs. peers --help has more:

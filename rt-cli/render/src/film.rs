@@ -1,8 +1,8 @@
 //! Pixels.
 
-use std::sync::LazyLock;
-
 use glam::Vec3;
+use rt_picture::srgb::encode8;
+use rt_picture::{Picture, Scale};
 
 /// A picture in linear colour, row by row from the upper left corner.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +33,14 @@ impl Film {
         &self.pixels
     }
 
+    /// One pixel.
+    ///
+    /// # Panics
+    /// If it is not within the picture.
+    pub fn pixel(&self, x: u32, y: u32) -> Vec3 {
+        self.pixels[y as usize * self.width as usize + x as usize]
+    }
+
     /// Sets one pixel.
     pub(crate) fn set(&mut self, x: u32, y: u32, color: Vec3) {
         self.pixels[y as usize * self.width as usize + x as usize] = color;
@@ -40,38 +48,12 @@ impl Film {
 
     /// Red, green and blue of each pixel in 8-bit sRGB, rounded to nearest.
     pub fn to_srgb8(&self) -> Vec<u8> {
-        self.pixels.iter().flat_map(|color| color.to_array().map(srgb8)).collect()
+        self.pixels.iter().flat_map(|color| color.to_array().map(encode8)).collect()
     }
-}
 
-/// One linear channel as 8-bit sRGB; NaN is black.
-fn srgb8(linear: f32) -> u8 {
-    STARTS.partition_point(|start| *start <= linear) as u8
-}
-
-/// The linear values at which the codes 1, 2, …, 255 begin: half a code before the code itself.
-/// (IEC 61966-2-1. The power comes from the one library whose bits are the same everywhere.)
-static STARTS: LazyLock<[f32; 255]> = LazyLock::new(|| {
-    std::array::from_fn(|i| {
-        let code = (i as f64 + 0.5) / 255.0;
-        let linear =
-            if code <= 0.04045 { code / 12.92 } else { libm::pow((code + 0.055) / 1.055, 2.4) };
-        linear as f32
-    })
-});
-
-#[cfg(test)]
-mod tests {
-    use super::srgb8;
-
-    #[test]
-    fn srgb_has_its_known_values() {
-        let known = [(0.0, 0), (1.0, 255), (0.5, 188), (0.2158605, 128), (0.0031308, 10)];
-        for (linear, code) in known {
-            assert_eq!(srgb8(linear), code, "{linear}");
-        }
-        assert_eq!(srgb8(f32::NAN), 0);
-        assert_eq!(srgb8(-1.0), 0);
-        assert_eq!(srgb8(f32::INFINITY), 255);
+    /// The picture, ready to be written.
+    pub fn into_picture(self) -> Picture {
+        let Film { width, height, pixels } = self;
+        Picture { width, height, scale: Scale::Linear, pixels }
     }
 }

@@ -11,6 +11,8 @@ use crate::Integrator;
 pub struct Job {
     /// Width and height in pixels.
     pub size: (u32, u32),
+    /// The part of it that is wanted; none is all of it. Its pixels are those of the whole.
+    pub crop: Option<Crop>,
     /// The camera. Its own `size` is not looked at.
     pub view: View,
     /// Point lights. None: a light at the eye, without shadows.
@@ -29,6 +31,27 @@ pub struct Job {
     pub threads: usize,
 }
 
+impl Job {
+    /// What is rendered: the crop or all.
+    pub fn area(&self) -> Crop {
+        let (width, height) = self.size;
+        self.crop.unwrap_or(Crop { left: 0, top: 0, width, height })
+    }
+}
+
+/// A rectangle of pixels of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// Columns to the left of it.
+    pub left: u32,
+    /// Rows above it.
+    pub top: u32,
+    /// Pixels in a row of it.
+    pub width: u32,
+    /// Its rows.
+    pub height: u32,
+}
+
 /// The most pixels of a picture.
 const MAX_PIXELS: u64 = 1 << 27;
 
@@ -41,6 +64,20 @@ pub fn check_size((width, height): (u32, u32)) -> Result<(), RenderError> {
     match u64::from(width) * u64::from(height) {
         1..=MAX_PIXELS => Ok(()),
         _ => Err(RenderError::Size(width, height)),
+    }
+}
+
+/// Refuses a crop that has no pixels or is not within the picture: likewise sooner.
+///
+/// # Errors
+/// [`RenderError::Crop`].
+pub fn check_crop(crop: Crop, size: (u32, u32)) -> Result<(), RenderError> {
+    let ends = |start: u32, len: u32| u64::from(start) + u64::from(len);
+    let within = ends(crop.left, crop.width) <= u64::from(size.0)
+        && ends(crop.top, crop.height) <= u64::from(size.1);
+    match within && crop.width > 0 && crop.height > 0 {
+        true => Ok(()),
+        false => Err(RenderError::Crop { crop, size }),
     }
 }
 
@@ -57,6 +94,17 @@ pub enum RenderError {
     /// The picture has no pixels, or too many.
     #[error("a picture of {0}x{1} pixels cannot be made: 1 to {MAX_PIXELS} pixels are possible")]
     Size(u32, u32),
+    /// The crop has no pixels, or is not within the picture.
+    #[error(
+        "the crop of {}x{} pixels at {},{} is not within the picture of {}x{}",
+        crop.width, crop.height, crop.left, crop.top, size.0, size.1
+    )]
+    Crop {
+        /// What was asked for.
+        crop: Crop,
+        /// Width and height of the picture.
+        size: (u32, u32),
+    },
     /// The camera looks nowhere.
     #[error("the camera looks nowhere: {0}")]
     View(&'static str),

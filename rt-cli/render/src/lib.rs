@@ -15,11 +15,11 @@ pub mod precision;
 mod shade;
 mod world;
 
-pub use exec::{KindReport, Progress, Report, Silent, render};
+pub use exec::{KindReport, Made, Progress, Report, Silent, Tiles, render, render_rest};
 pub use film::Film;
 pub use fit::fitted_view;
 pub use integrate::{Integrator, RayKind};
-pub use job::{Job, RenderError, check_size};
+pub use job::{Crop, Job, RenderError, check_crop, check_size};
 pub use rt_kernels::geom::Aabb;
 pub use rt_kernels::tri::Method;
 pub use rt_kernels::{Builder, Exec, KdBuilder, Layout, Mailbox, PacketSize, Plan};

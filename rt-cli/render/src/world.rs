@@ -1,5 +1,6 @@
 //! A scene made ready to trace.
 
+use std::fmt::{self, Write};
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
@@ -194,9 +195,42 @@ impl World {
         self.accel.bytes()
     }
 
+    /// A number that differs, but for chance, if anything of the scene differs that a picture may
+    /// depend on: its geometry and materials, as stated.
+    pub fn fingerprint(&self) -> u64 {
+        let Scene {
+            mesh,
+            spheres,
+            cones,
+            materials,
+            name: _,
+            // These are the job's.
+            lights: _,
+            background: _,
+            view: _,
+            facts: _,
+        } = &self.scene;
+        let mut hash = Fnv(0xCBF2_9CE4_8422_2325);
+        let what = (mesh, spheres, cones, materials, self.scale);
+        write!(hash, "{what:?}").expect("a number takes any text");
+        hash.0
+    }
+
     /// The corners of a triangle.
     pub(crate) fn corners(&self, triangle: &rt_scene::Triangle) -> [Vec3; 3] {
         corners(&self.scene, triangle)
+    }
+}
+
+/// FNV-1a of a text.
+struct Fnv(u64);
+
+impl Write for Fnv {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0 = text
+            .bytes()
+            .fold(self.0, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3));
+        Ok(())
     }
 }
 

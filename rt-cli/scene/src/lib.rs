@@ -1,7 +1,7 @@
 //! Scene descriptions: what is there, not how it is traced.
 //!
 //! [`Scene`] is plain data: a triangle mesh, quadrics that stay quadrics until someone
-//! [tessellates](tessellate()) them, materials, lights and a view. It comes from a file ([`obj`], [`nff`]) or from a procedure ([`spd`]); [`open`] takes
+//! [tessellates](tessellate()) them, materials, lights and a view. It comes from a file ([`obj`], [`nff`], [`aff`]) or from a procedure ([`spd`]); [`open`] takes
 //! either by name.
 //!
 //! Readers take what is found in the wild and say what they left out ([`Facts`]). What they cannot
@@ -9,6 +9,7 @@
 //! file claims. The same input gives the same scene on every machine.
 #![forbid(unsafe_code)]
 
+pub mod aff;
 mod diag;
 mod model;
 pub mod nff;
@@ -37,7 +38,8 @@ pub fn open(name: impl AsRef<OsStr>) -> Result<Scene, Error> {
     match extension.as_ref().and_then(|extension| extension.to_str()) {
         Some("obj") => obj::read(path),
         Some("nff") => nff::read(path),
-        _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj or .nff" }),
+        Some("aff") => aff::read(path),
+        _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj, .nff or .aff" }),
     }
 }
 

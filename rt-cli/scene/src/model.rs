@@ -204,6 +204,8 @@ pub struct Facts {
     pub skipped: Vec<Skipped>,
     /// What a user should know, one sentence each, with the place where it applies.
     pub warnings: Vec<String>,
+    /// Those of the warnings that are of a file that the scene names and that cannot be read.
+    pub missing: Vec<String>,
 }
 
 /// Statements that a reader left out, all for one reason.

@@ -37,7 +37,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Error> {
     show(&format!("{:<width$} {}\n", "scene", compared.head()))?;
     let mut rows = Vec::new();
     for name in &args.scenes {
-        let mut scene = args.tessellate.apply(rt_scene::open(name)?)?;
+        let mut scene = args.opening.open(name)?;
         let view = scene.view.take();
         let scene_name = scene.name.clone();
         let worlds = worlds(&scene, args, compared)?;
@@ -92,6 +92,7 @@ fn name_width(name: &OsStr) -> usize {
 fn job(view: View, size: (u32, u32), exec: Exec) -> Job {
     Job {
         size,
+        crop: None,
         view,
         lights: Vec::new(),
         background: Vec3::ZERO,

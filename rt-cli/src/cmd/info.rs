@@ -17,7 +17,7 @@ use crate::{output, report};
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Error> {
     let text = match &args.scene {
         Some(name) => {
-            let scene = args.tessellate.apply(rt_scene::open(name)?)?;
+            let scene = args.opening.open(name)?;
             let (facts, predictions) = (Facts::of(&scene), predictions(&scene));
             if args.json {
                 let mut json = scene_json(&scene);

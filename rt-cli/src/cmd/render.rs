@@ -1,7 +1,11 @@
 //! `rt render`.
 
+mod keep;
+
+use std::time::Instant;
+
 use glam::Vec3;
-use rt_render::{Aabb, Job, Plan, World, check_size, fitted_view, precision};
+use rt_render::{Aabb, Job, Plan, World, check_crop, check_size, fitted_view, precision};
 use rt_scene::View;
 
 use crate::args::{PictureArgs, RenderArgs};
@@ -9,6 +13,7 @@ use crate::error::Error;
 use crate::output::{self, Output};
 use crate::report::{self, Kernel, Rendered};
 use crate::ui;
+use keep::Keep;
 
 /// The angle of view of a fitted camera, in degrees.
 const FOV: f32 = 40.0;
@@ -22,27 +27,34 @@ const BACKGROUND: Vec3 = Vec3::new(0.05, 0.05, 0.06);
 /// Makes one picture. Triangles without area can't be seen, but a scene that has no others still
 /// has a picture: that of its background, with the reader's warning.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
+    let interrupt = ui::Interrupt::new().map_err(Error::Signal)?;
     let exec = args.machine.exec()?;
     let threads = args.machine.threads();
     // Before any work: what cannot be written is not worth rendering.
-    output::format(&args.output, &["png"])?;
-    let output = Output::open(&args.output)?;
+    let format = args.output.format()?;
+    let output = Output::open(&args.output.path)?;
     let stats = args.stats_json.as_deref().map(output::open_json).transpose()?;
     if stats.as_ref().is_some_and(|stats| stats.is_same(&output)) {
-        return Err(Error::SameOutput(args.output.clone()));
+        return Err(Error::SameOutput(args.output.path.clone()));
     }
-
+    let keep = Keep::new(&args.output, &output)?;
     args.picture.size.map_or(Ok(()), check_size)?;
 
-    let mut scene = args.tessellate.apply(rt_scene::open(&args.scene)?)?;
+    let start = Instant::now();
+    let mut scene = args.opening.open(&args.scene)?;
     if !args.quiet {
         ui::warnings(&scene);
+    }
+    if args.verbose {
+        let (name, took) = (&scene.name, report::time(start.elapsed()));
+        ui::say(&format!("{name}: opened in {took}: {}", report::contents(&scene)));
     }
     let own = (scene.view.take(), std::mem::take(&mut scene.lights), scene.background);
     let (own_view, own_lights, own_background) = own;
     let name = scene.name.clone();
     let stated = report::stated(&scene);
     let size = picture_size(&args.picture, own_view.as_ref());
+    args.picture.crop.map_or(Ok(()), |crop| check_crop(crop, size))?;
     let view = view(&args.picture, own_view, &rt_render::bounds(&scene), size);
     let kernel = match args.precision.tolerance {
         Some(pixels) => Kernel::Chosen(precision::choose(&scene, &view, size, pixels), pixels),
@@ -54,8 +66,12 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
     if own_view.is_none() && !args.quiet {
         ui::say(&format!("camera: {}", report::flags(&view)));
     }
+    if args.verbose {
+        ui::say(&report::built(&world));
+    }
     let job = Job {
         size,
+        crop: args.picture.crop,
         view,
         lights: if args.shading.light.is_empty() { own_lights } else { args.shading.light.clone() },
         background: args.shading.background.or(own_background).unwrap_or(BACKGROUND),
@@ -66,18 +82,21 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
         threads,
     };
     let progress = ui::Progress::new(args.progress, args.quiet);
-    let (film, made) = rt_render::render(&world, &job, &progress)?;
-    progress.finish();
+    let made = keep.render(&world, &job, progress, &interrupt, args.quiet)?;
 
-    output.write(&output::png(&film, &name, &view)?)?;
+    output.write(&output::picture(made.film, format, &name, &job)?)?;
+    keep.complete()?;
     let rendered = Rendered {
         name: &name,
-        output: &args.output,
+        output: &args.output.path,
         world: &world,
         job: &job,
         kernel: &kernel,
-        made,
+        made: made.report,
     };
+    if args.verbose {
+        rendered.details().iter().for_each(|line| ui::say(line));
+    }
     if !args.quiet {
         ui::say(&rendered.line());
     }

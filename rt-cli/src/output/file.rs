@@ -42,6 +42,15 @@ impl Output {
         written.map_err(|source| Error::Write { path: self.path, source })
     }
 
+    /// The file to be, if it is one: as the user names it, unless that is a link to it.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        match &self.place {
+            Place::File(target) if self.path.is_symlink() => Some(target),
+            Place::File(_) => Some(&self.path),
+            Place::Stdout | Place::Stream(_) => None,
+        }
+    }
+
     /// Whether the one would overwrite, or run into, the other.
     pub(crate) fn is_same(&self, other: &Output) -> bool {
         match (&self.place, &other.place) {
@@ -69,6 +78,19 @@ pub(crate) fn to_stdout(bytes: &[u8]) -> Result<(), Error> {
         }
         _ => Ok(()),
     }
+}
+
+/// The bytes of a regular file. (A pipe or a device might never end.)
+pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, Error> {
+    let read = || {
+        let kind = fs::metadata(path)?.file_type();
+        match kind.is_file() {
+            true => fs::read(path),
+            false if kind.is_dir() => Err(io::Error::other("it is a directory")),
+            false => Err(io::Error::other("it is not a regular file")),
+        }
+    };
+    read().map_err(|source| Error::Read { path: path.into(), source })
 }
 
 fn place(path: &Path) -> io::Result<Place> {

@@ -1,10 +1,14 @@
 //! Files: whole or not at all.
 
 mod file;
+mod part;
 mod picture;
+mod scene;
 
-pub(crate) use file::{Output, format, to_stdout};
-pub(crate) use picture::png;
+pub(crate) use file::{Output, format, read_file, to_stdout};
+pub(crate) use part::{PartFile, PartWriter};
+pub(crate) use picture::picture;
+pub(crate) use scene::SceneOutput;
 
 use std::path::Path;
 

@@ -1,30 +1,27 @@
-//! PNG.
+//! Pictures.
 
-use rt_render::Film;
-use rt_scene::View;
+use rt_picture::Format;
+use rt_render::{Film, Job};
 
 use crate::error::Error;
 use crate::report;
 
-/// A picture as a PNG file. Its text chunks hold only what is the same for every level,
-/// accelerator and number of threads.
-pub(crate) fn png(film: &Film, scene: &str, view: &View) -> Result<Vec<u8>, Error> {
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, film.width(), film.height());
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    let text = [
+/// A rendered picture as a file. What a PNG says of it is the same for every level, accelerator and
+/// number of threads.
+pub(crate) fn picture(
+    film: Film,
+    format: Format,
+    scene: &str,
+    job: &Job,
+) -> Result<Vec<u8>, Error> {
+    let mut text = vec![
         ("Software", concat!("rt ", env!("CARGO_PKG_VERSION")).to_owned()),
         ("Scene", scene.to_owned()),
-        ("Size", format!("{}x{}", film.width(), film.height())),
-        ("View", report::flags(view)),
+        ("Size", format!("{}x{}", job.size.0, job.size.1)),
+        ("View", report::flags(&job.view)),
     ];
-    for (keyword, text) in text {
-        encoder.add_itxt_chunk(keyword.to_owned(), text)?;
+    if let Some(crop) = job.crop {
+        text.push(("Crop", report::crop(crop)));
     }
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&film.to_srgb8())?;
-    writer.finish()?;
-    Ok(file)
+    Ok(rt_picture::write(&film.into_picture(), format, &text)?)
 }

@@ -1,21 +1,48 @@
 //! What was done, in a line and in JSON.
 
+mod identity;
 mod precision;
 mod words;
 
+pub(crate) use identity::identity;
 pub(crate) use precision::{Kernel, facts_json, facts_lines};
-pub(crate) use words::{count, flags, number_of, plural, time};
+pub(crate) use words::{count, crop, flags, number_of, plural, time};
 
 use std::path::Path;
 use std::time::Duration;
 
-use rt_render::{Job, KindReport, Report, World};
+use rt_render::{Crop, Job, KindReport, Report, World};
 use rt_scene::Scene;
 use serde_json::{Value, json};
 
 /// The primitives that a file states, by kind.
 pub(crate) fn stated(scene: &Scene) -> Value {
     json!(scene.facts.stated)
+}
+
+/// What is in a scene, in a line.
+pub(crate) fn contents(scene: &Scene) -> String {
+    number_of(&[
+        ("triangle", scene.mesh.triangles.len()),
+        ("sphere", scene.spheres.len()),
+        ("cone", scene.cones.len()),
+        ("material", scene.materials.len()),
+        ("light", scene.lights.len()),
+    ])
+}
+
+/// How a world was built, in a line.
+pub(crate) fn built(world: &World) -> String {
+    let by = world.builder().map_or(String::new(), |builder| format!(" by {builder}"));
+    let kilobytes = |bytes: usize| bytes.div_ceil(1024);
+    format!(
+        "{}, {}: built in {}{by}; {} KiB beside {} KiB of scene",
+        world.accel_kind().name(),
+        world.layout(),
+        time(world.build_time()),
+        kilobytes(world.accel_bytes()),
+        kilobytes(world.scene_bytes()),
+    )
 }
 
 /// A picture that was made.
@@ -42,10 +69,13 @@ impl Rendered<'_> {
             stdout if stdout == "-" => "standard output".to_owned(),
             file => file,
         };
+        let Crop { width, height, .. } = self.job.area();
         format!(
-            "{output}: {}x{}, {}; {} built in {}, rendered in {} (tracing {}); Mray/s: {}; {}, {}; {}",
-            self.job.size.0,
-            self.job.size.1,
+            "{output}: {width}x{height}{}, {}; {} built in {}, rendered in {} (tracing {}); Mray/s: {}; {}, {}; {}",
+            match self.job.crop {
+                Some(_) => format!(" of {}x{}", self.job.size.0, self.job.size.1),
+                None => String::new(),
+            },
             number_of(&[
                 ("triangle", world.triangles()),
                 ("sphere", world.spheres()),
@@ -62,6 +92,39 @@ impl Rendered<'_> {
         )
     }
 
+    /// What each kind of ray took, and the work for it.
+    pub(crate) fn details(&self) -> Vec<String> {
+        let (made, exec) = (&self.made, self.job.exec);
+        let kinds = [
+            ("primary rays", made.primary),
+            ("shadow rays", made.shadow),
+            ("reflected rays", made.reflection),
+        ];
+        let rays = kinds.into_iter().filter(|(_, report)| report.rays > 0);
+        let mut lines: Vec<_> = rays
+            .map(|(kind, report)| {
+                format!("{kind}: {}, traced in {}", report.rays, time(report.time))
+            })
+            .collect();
+        let each = |count: u64| count as f64 / made.all().rays.max(1) as f64;
+        let stats = &made.stats;
+        lines.push(format!(
+            "a ray on average: {:.1} nodes, {:.1} boxes, {:.1} triangles, {:.1} spheres, {:.1} cones",
+            each(stats.node_visits),
+            each(stats.box_tests),
+            each(stats.triangle_tests),
+            each(stats.sphere_tests),
+            each(stats.cone_tests),
+        ));
+        lines.push(format!(
+            "shaded in {}; {} rays together over {}",
+            time(made.shading),
+            exec.lanes(),
+            self.world.layout(),
+        ));
+        lines
+    }
+
     /// The same facts and more.
     pub(crate) fn json(&self, stated: Value) -> Value {
         let (world, job, made) = (self.world, self.job, &self.made);
@@ -72,6 +135,7 @@ impl Rendered<'_> {
             "output": self.output.display().to_string(),
             "width": job.size.0,
             "height": job.size.1,
+            "crop": job.crop.map(|crop| [crop.left, crop.top, crop.width, crop.height]),
             "triangles": world.triangles(),
             "primitives": stated,
             "integrator": job.integrator.name(),

@@ -3,11 +3,11 @@
 use std::time::Duration;
 
 use glam::Vec3;
+use rt_render::Crop;
 use rt_scene::View;
 
 /// The flags that give a view: read again, they give every bit of it.
 pub(crate) fn flags(view: &View) -> String {
-    let list = |v: Vec3| v.to_array().map(number).join(",");
     format!(
         "--eye {} --target {} --up {} --fov {}",
         list(view.eye),
@@ -15,6 +15,16 @@ pub(crate) fn flags(view: &View) -> String {
         list(view.up),
         number(view.fov_y)
     )
+}
+
+/// A point or a colour, as flags take it.
+pub(crate) fn list(v: Vec3) -> String {
+    v.to_array().map(number).join(",")
+}
+
+/// A crop, as its flag takes it.
+pub(crate) fn crop(crop: Crop) -> String {
+    format!("{},{},{},{}", crop.left, crop.top, crop.width, crop.height)
 }
 
 /// The shortest decimal that is read as the same number; with an exponent where there would be a

@@ -1,7 +1,9 @@
 //! Talk, all of it to stderr. Nobody may be listening: that is no reason to stop.
 
+mod interrupt;
 mod progress;
 
+pub(crate) use interrupt::Interrupt;
 pub(crate) use progress::Progress;
 
 use std::io::{Write, stderr};

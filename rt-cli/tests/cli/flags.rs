@@ -5,9 +5,19 @@ use crate::support::Scratch;
 #[test]
 fn help_fits_a_terminal_and_names_groups_and_defaults() {
     let scratch = Scratch::new();
-    for command in
-        [&[][..], &["render"], &["info"], &["gen"], &["bench"], &["accuracy"], &["chart"]]
-    {
+    for command in [
+        &[][..],
+        &["render"],
+        &["info"],
+        &["gen"],
+        &["bench"],
+        &["accuracy"],
+        &["chart"],
+        &["compare"],
+        &["convert"],
+        &["completions"],
+        &["paper"],
+    ] {
         for flag in ["-h", "--help"] {
             let help = scratch.rt(&[command, &[flag]].concat()).exits(0).text();
             let long = help.lines().find(|line| line.chars().count() > 80);
@@ -21,6 +31,7 @@ fn help_fits_a_terminal_and_names_groups_and_defaults() {
         "\nShading:\n",
         "\nPrecision:\n",
         "\nMachine (",
+        "\nLong jobs:\n",
         "\nTalk:\n",
         "\nExamples:\n",
     ] {
@@ -29,6 +40,7 @@ fn help_fits_a_terminal_and_names_groups_and_defaults() {
     let flowing = help.split_whitespace().collect::<Vec<_>>().join(" ");
     for (flag, default) in [
         ("--size", "the scene's, or 512x512"),
+        ("--crop", "all"),
         ("--eye", "the scene's, or such that all is in the picture"),
         ("--target", "the scene's, or the middle of its bounds"),
         ("--up", "the scene's, or 0,1,0"),
@@ -95,6 +107,9 @@ fn wrong_usage_is_exit_code_2_and_does_nothing() {
         "render room.obj -o a.png --builder best",
         "render room.obj -o a.png --layout bvh2",
         "render room.obj -o a.png --progress dots",
+        "render room.obj -o a.png --crop 1,2,3",
+        "render room.obj -o a.png --bits 10",
+        "render room.obj -o a.png -q -v",
         "render room.obj -o a.png --kernel pluecker",
         "render room.obj -o a.png --tolerance",
         "render room.obj -o a.png --tolerance -1",
@@ -106,7 +121,6 @@ fn wrong_usage_is_exit_code_2_and_does_nothing() {
         "gen balls --size x",
         "gen balls --size -1",
         "info room.obj room.obj",
-        "bench",
         "bench room.obj --rounds 0",
         "bench room.obj --builders --kernels",
         "bench room.obj --builders --builder spatial",

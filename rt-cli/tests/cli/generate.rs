@@ -38,6 +38,7 @@ fn a_tessellation_is_the_same_in_a_file() {
     let scratch = Scratch::new();
     let run = scratch.rt(&["gen", "rings", "--size", "1", "--tessellate", "-o", "rings.obj"]);
     assert_eq!(run.exits(0).stderr, "rings.obj: 30 cylinders, 1 polygon, 30 spheres\n");
+    assert_eq!(scratch.names(), ["rings.mtl", "rings.obj"]);
     let look = ["-s", "60x40", "--integrator", "normals", "--background", "0,0,0"];
     let view = ["--eye=-1,-2.6,0.5", "--target=-1,-1.6,0.5", "--up=0,0,1", "--fov=45"];
     let flags = [&look[..], &view].concat();

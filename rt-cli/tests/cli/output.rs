@@ -1,9 +1,8 @@
 //! Where output goes: whole or not at all, and nothing beside it.
 
 use std::fs::{self, Permissions};
-use std::io::{self, BufRead, BufReader};
+use std::io;
 use std::os::unix::fs::{PermissionsExt, symlink};
-use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread;
@@ -256,38 +255,4 @@ fn nobody_has_to_listen() {
     assert_eq!(Picture::open(&scratch.path("a.png")).size, (8, 8));
     run_with(&scratch, &["render", "no.obj", "-o", "a.png"], Stdio::piped(), closed()).exits(1);
     run_with(&scratch, &["render", "no.obj"], Stdio::piped(), closed()).exits(2);
-}
-
-#[test]
-fn an_interrupt_leaves_nothing_behind() {
-    if fs::read_to_string("/proc/self/status").is_ok_and(|status| ignores_interrupts(&status)) {
-        skipped("whoever started this test had interrupts ignored");
-        return;
-    }
-    let scratch = Scratch::new();
-    scratch.file("a.png", "precious");
-    // Minutes of work, if it were let.
-    let args = ["render", "spd:balls:4", "--accel", "brute", "-j1", "-s", "2048x2048"];
-    let outputs = ["-o", "a.png", "--stats-json", "new.json"];
-    let mut child = scratch.rt_command(&[&args[..], &outputs].concat()).spawn().unwrap();
-    // In a pipe there are lines.
-    let mut line = String::new();
-    BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
-    let percent = line.strip_prefix("rendered ").and_then(|line| line.strip_suffix(" %\n"));
-    assert!(percent.is_some_and(|n| n.parse::<u32>().is_ok()), "{line:?}");
-    assert_eq!(scratch.names(), ["a.png"], "while it works");
-
-    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(kill.unwrap().success());
-    let status = child.wait().unwrap();
-    // A shell says 130 to both.
-    assert!(status.signal() == Some(2) || status.code() == Some(130), "{status}");
-    assert_eq!(scratch.names(), ["a.png"], "afterwards");
-    assert_eq!(scratch.bytes("a.png"), b"precious");
-}
-
-/// Whether signal 2 is in the mask of a `/proc/*/status`.
-fn ignores_interrupts(status: &str) -> bool {
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|m| m & 2 != 0)
 }

@@ -95,6 +95,7 @@ fn light_and_shading_have_their_effect() {
         &["--integrator", "eyelight"],
         &["--integrator", "normals"],
         &["--integrator", "depth"],
+        &["--integrator", "heat"],
         &["--background", "0,1,0"],
     ] {
         let picture = with(flags);
@@ -154,4 +155,29 @@ fn nothing_to_see_is_a_picture_of_the_background_and_a_warning() {
     let run = scratch.rt(&args).exits(0);
     assert!(run.stderr.starts_with("warning: 2 triangles have no area"), "{}", run.stderr);
     assert!(Picture::open(&scratch.path("a.png")).pixels.iter().all(|&byte| byte == 255));
+}
+
+/// It shows what finds the hits, and nothing else of the machine.
+#[test]
+fn heat_depends_on_the_accelerator_alone() {
+    let scratch = Scratch::new();
+    let heat = |flags: &[&str]| {
+        let args = [&["spd:rings:1", "-s", "40x40", "--integrator", "heat"], flags].concat();
+        Picture::decode(&scratch.png(&args)).pixels
+    };
+    let own = heat(&[]);
+    let mut same = vec![vec!["-j", "1"], vec!["-j", "3"], vec!["--packet", "1"]];
+    let levels = crate::support::levels();
+    same.extend(levels.iter().map(|level| vec!["--isa", level]));
+    for flags in same {
+        assert!(heat(&flags) == own, "{flags:?}");
+    }
+    for flags in
+        [["--accel", "kd"], ["--accel", "brute"], ["--layout", "skip"], ["--builder", "insertion"]]
+    {
+        assert!(heat(&flags) != own, "{flags:?}");
+    }
+    // Every ray is tested against all there is: one colour, of 61 tests.
+    let brute = heat(&["--accel", "brute"]);
+    assert!(brute.chunks(3).all(|pixel| *pixel == brute[..3]) && brute[0] > 0);
 }

@@ -4,11 +4,12 @@ use serde_json::Value;
 
 use crate::support::{BUILDERS, LAYOUTS, Scratch, keys, levels};
 
-const KEYS: [&str; 28] = [
+const KEYS: [&str; 29] = [
     "scene",
     "output",
     "width",
     "height",
+    "crop",
     "triangles",
     "primitives",
     "integrator",

@@ -61,6 +61,29 @@ fn quiet_says_nothing() {
 }
 
 #[test]
+fn verbose_says_more_and_no_less() {
+    let scratch = Scratch::with_room();
+    let plain = scratch.rt(&[&RENDER[..], &["--light", "-1,2.5,1.5"]].concat()).exits(0).stderr;
+    let args = [&RENDER[..], &["-v", "--light", "-1,2.5,1.5", "--layout", "skip"]].concat();
+    let shown = scratch.rt(&args).exits(0).stderr;
+    let lines: Vec<_> = shown.lines().collect();
+    assert!(plain.lines().count() == 2 && lines.len() == 9, "{shown}");
+    for (line, parts) in lines.iter().zip([
+        &["room.obj: opened in ", ": 7 triangles, 3 materials"][..],
+        &["camera: --eye "],
+        &["bvh, skip: built in ", " by binned-sah; ", " KiB beside ", " KiB of scene"],
+        &["primary rays: 1200, traced in "],
+        &["shadow rays: "],
+        &["reflected rays: "],
+        &["a ray on average: ", " nodes, ", " boxes, ", " triangles, 0.0 spheres, 0.0 cones"],
+        &["shaded in ", " rays together over skip"],
+        &["a.png: 40x30, 7 triangles; "],
+    ]) {
+        assert!(parts.iter().all(|part| line.contains(part)), "{line}");
+    }
+}
+
+#[test]
 fn standard_output_takes_the_picture_and_nothing_else() {
     let scratch = Scratch::with_room();
     let run = scratch.rt(&["render", "room.obj", "-o", "-", "-s", "40x30"]).exits(0);
@@ -79,6 +102,8 @@ fn progress_as_json_is_json() {
     let last = events.last().expect("the end is always told");
     assert_eq!(last["event"], "tiles");
     assert_eq!((&last["done"], &last["total"]), (&2.into(), &2.into()));
+    assert!(last["elapsed_s"].as_f64().is_some_and(|s| s >= 0.0), "{last}");
+    assert_eq!(last["left_s"], 0.0);
     assert!(run.stderr.lines().last().unwrap().starts_with("a.png: "));
 }
 

@@ -27,14 +27,15 @@ enum Others {
 
 /// The arrows; there are no others.
 #[rustfmt::skip]
-const ARROWS: [Arrows; 9] = [
+const ARROWS: [Arrows; 10] = [
     Arrows { name: "simd4",      uses: &[],                                              others: Only(&[]) },
     Arrows { name: "simd4-probe", uses: &["simd4"],                                      others: Only(&[]) },
     Arrows { name: "rt-kernels", uses: &["simd4"],                                       others: But(&["rayon", "rand", "clap"]) },
+    Arrows { name: "rt-picture", uses: &[],                                              others: But(&["rayon", "clap"]) },
     Arrows { name: "rt-scene",   uses: &[],                                              others: But(&["rayon", "clap"]) },
-    Arrows { name: "rt-render",  uses: &["simd4", "rt-kernels", "rt-scene"],             others: But(&["clap", "indicatif"]) },
+    Arrows { name: "rt-render",  uses: &["simd4", "rt-kernels", "rt-scene", "rt-picture"], others: But(&["clap", "indicatif"]) },
     Arrows { name: "rt-accuracy", uses: &["simd4", "rt-kernels", "rt-tests"],            others: But(&["clap", "indicatif"]) },
-    Arrows { name: "rt-cli",     uses: &["rt-render", "rt-scene", "rt-accuracy"],        others: Any },
+    Arrows { name: "rt-cli",     uses: &["rt-render", "rt-scene", "rt-accuracy", "rt-picture"], others: Any },
     Arrows { name: "rt-tests",   uses: &["simd4", "rt-kernels", "rt-scene", "rt-render"], others: Any },
     Arrows { name: "xtask",      uses: &[],                                              others: But(&["clap"]) },
 ];

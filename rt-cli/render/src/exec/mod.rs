@@ -6,26 +6,37 @@ pub(crate) mod tile;
 pub(crate) use tally::Tally;
 pub use tally::{KindReport, Report};
 pub(crate) use tile::TileJob;
+pub use tile::Tiles;
 
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::io;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
+use glam::Vec3;
 use rayon::prelude::*;
 use rt_kernels::Join;
 use rt_kernels::camera::Pinhole;
 
 use crate::fit::half_height;
 use crate::integrate::{Scratch, integrate};
-use crate::job::check_size;
+use crate::job::{check_crop, check_size};
 use crate::{Film, Job, RenderError, World};
 
 /// Who wants to know how far the work is. Called from all threads.
 pub trait Progress: Sync {
     /// `done` of `total` tiles are finished.
     fn tiles(&self, done: usize, total: usize);
+
+    /// A tile is finished: its pixels in the order of [`Tiles::pixels`].
+    fn finished(&self, _tile: u32, _pixels: &[Vec3]) {}
+
+    /// Whether no other tile shall be begun.
+    fn is_cancelled(&self) -> bool {
+        false
+    }
 }
 
 /// Nobody does.
@@ -35,48 +46,101 @@ impl Progress for Silent {
     fn tiles(&self, _: usize, _: usize) {}
 }
 
+/// What was made of a picture.
+#[derive(Debug)]
+pub struct Made {
+    /// The area that the job asks for. Tiles that are not finished are black.
+    pub film: Film,
+    /// What it took.
+    pub report: Report,
+    /// Which tiles are finished: all, unless the work was cancelled.
+    pub finished: Vec<bool>,
+}
+
 /// Renders a picture.
 ///
 /// # Errors
-/// If the picture has no pixels or too many, if the camera looks nowhere, or if the threads cannot
-/// be started.
+/// If the picture has no pixels or too many, if its crop is not within it, if the camera looks
+/// nowhere, or if the threads cannot be started.
 pub fn render(
     world: &World,
     job: &Job,
     progress: &dyn Progress,
 ) -> Result<(Film, Report), RenderError> {
-    let (width, height) = job.size;
+    let made = render_rest(world, job, &BTreeMap::new(), progress)?;
+    Ok((made.film, made.report))
+}
+
+/// Renders those tiles of a picture that are not there yet. What is there is taken if it is of a
+/// tile of the job and has as many pixels.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_rest(
+    world: &World,
+    job: &Job,
+    there: &BTreeMap<u32, Vec<Vec3>>,
+    progress: &dyn Progress,
+) -> Result<Made, RenderError> {
     check_size(job.size)?;
+    let area = job.area();
+    check_crop(area, job.size)?;
     let camera = camera(world, job)?;
     let lights = tile::lights(world, job);
     let depth_range = tile::depth_range(world, camera.eye());
 
     let start = Instant::now();
-    let tiles = tile::tiles(width, height);
-    let film = Mutex::new(Film::new(width, height));
-    let total = Mutex::new(Tally::default());
-    let done = AtomicUsize::new(0);
-    let one = |(scratch, colors): &mut (Scratch, Vec<_>), origin: &(u32, u32)| {
-        let pixels = tile::pixels(*origin, width, height);
-        let tile = TileJob { world, job, camera, lights: &lights, depth_range, pixels };
+    let tiles = Tiles::of(job);
+    let film = Mutex::new(Film::new(area.width, area.height));
+    let put = |pixels: &[(u32, u32)], colors: &[Vec3]| {
+        let mut film = film.lock().expect("no thread panics with the film in its hands");
+        for (&(x, y), &color) in pixels.iter().zip(colors) {
+            film.set(x - area.left, y - area.top, color);
+        }
+    };
+    let mut finished = vec![false; tiles.len()];
+    for (&index, colors) in there {
+        let pixels = tiles.pixels(index);
+        if !pixels.is_empty() && pixels.len() == colors.len() {
+            put(&pixels, colors);
+            finished[index as usize] = true;
+        }
+    }
+    let rest: Vec<u32> = (0..tiles.len() as u32).filter(|&i| !finished[i as usize]).collect();
+    let done = AtomicUsize::new(tiles.len() - rest.len());
+    progress.tiles(done.load(Ordering::Relaxed), tiles.len());
+
+    let total = Mutex::new((Tally::default(), finished));
+    let one = |(scratch, colors): &mut (Scratch, Vec<_>), index: &u32| {
+        if progress.is_cancelled() {
+            return;
+        }
+        let tile = TileJob {
+            world,
+            job,
+            camera,
+            lights: &lights,
+            depth_range,
+            pixels: tiles.pixels(*index),
+        };
         let mut tally = Tally::default();
         integrate(&tile, scratch, colors, &mut tally);
 
-        let mut film = film.lock().expect("no thread panics with the film in its hands");
-        for (&(x, y), &color) in tile.pixels.iter().zip(colors.iter()) {
-            film.set(x, y, color);
-        }
-        drop(film);
-        *total.lock().expect("no thread panics while it adds") += tally;
+        put(&tile.pixels, colors);
+        progress.finished(*index, colors);
+        let mut total = total.lock().expect("no thread panics while it adds");
+        total.0 += tally;
+        total.1[*index as usize] = true;
+        drop(total);
         progress.tiles(done.fetch_add(1, Ordering::Relaxed) + 1, tiles.len());
     };
     on_threads(job.threads, || {
-        tiles.par_iter().for_each_init(Default::default, one);
+        rest.par_iter().for_each_init(Default::default, one);
     })?;
 
     let film = film.into_inner().expect("all threads are done");
-    let tally = total.into_inner().expect("all threads are done");
-    Ok((film, tally.report(start.elapsed(), job.threads)))
+    let (tally, finished) = total.into_inner().expect("all threads are done");
+    Ok(Made { film, report: tally.report(start.elapsed(), job.threads), finished })
 }
 
 /// The camera of a job, in the world's scaled space.

@@ -44,6 +44,12 @@ impl Tally {
         self.count(RayKind::Shadow, rays, start);
     }
 
+    /// Nodes visited and primitives tested so far.
+    pub(crate) fn steps(&self) -> u64 {
+        let stats = &self.stats;
+        stats.node_visits + stats.triangle_tests + stats.sphere_tests + stats.cone_tests
+    }
+
     /// Does work that counts as shading.
     pub(crate) fn shading(&mut self, work: impl FnOnce()) {
         let start = Instant::now();

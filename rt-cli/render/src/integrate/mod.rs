@@ -4,6 +4,7 @@
 //! light the next part of another, their reflections the batch of the next round.
 
 mod direct;
+mod heat;
 mod whitted;
 
 use glam::Vec3;
@@ -23,6 +24,10 @@ pub enum Integrator {
     Normals,
     /// White at the nearest point of the scene's bounds, black at the farthest.
     Depth,
+    /// What each ray from the eye costs, alone: from black over blue, green, yellow and red to white
+    /// at 255 nodes and tests. The one picture that depends on the acceleration structure, which it
+    /// shows.
+    Heat,
 }
 
 impl Integrator {
@@ -33,6 +38,7 @@ impl Integrator {
             Integrator::Eyelight => "eyelight",
             Integrator::Normals => "normals",
             Integrator::Depth => "depth",
+            Integrator::Heat => "heat",
         }
     }
 }
@@ -72,5 +78,6 @@ pub(crate) fn integrate(
         Integrator::Eyelight => direct::integrate(job, scratch, colors, tally, direct::eyelight),
         Integrator::Normals => direct::integrate(job, scratch, colors, tally, direct::normals),
         Integrator::Depth => direct::integrate(job, scratch, colors, tally, direct::depth),
+        Integrator::Heat => heat::integrate(job, scratch, colors, tally),
     }
 }

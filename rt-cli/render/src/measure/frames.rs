@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use rt_kernels::Exec;
 
-use crate::exec::{Tally, TileJob, camera, tile};
+use crate::exec::{Tally, TileJob, Tiles, camera, tile};
 use crate::integrate::{Scratch, integrate};
 use crate::{Film, Job, RenderError, World};
 
@@ -98,8 +98,8 @@ impl<'a> Frame<'a> {
     fn new(world: &'a World, job: Job, extent: Extent) -> Result<Frame<'a>, RenderError> {
         camera(world, &job)?;
         let (width, height) = job.size;
-        let tiles = tile::tiles(width, height).into_iter();
-        let tiles = tiles.map(|origin| tile::pixels(origin, width, height));
+        let job = Job { crop: None, ..job };
+        let tiles = Tiles::of(&job).all();
         let parts = match extent {
             Extent::Tile => tiles.collect(),
             Extent::Picture => vec![tiles.flatten().collect()],

@@ -4,7 +4,7 @@ use glam::Vec3;
 use rt_kernels::{Exec, Hits, Ray, Rays, Stats};
 
 use super::random::Random;
-use crate::exec::{camera, tile};
+use crate::exec::{Tiles, camera, tile};
 use crate::shade::Surface;
 use crate::{Job, RenderError, World};
 
@@ -36,11 +36,8 @@ impl Batches {
 /// If the camera looks nowhere.
 pub fn primary(world: &World, job: &Job) -> Result<Batches, RenderError> {
     let camera = camera(world, job)?;
-    let (width, height) = job.size;
-    let batches = tile::tiles(width, height)
-        .into_iter()
-        .map(|origin| tile::rays(&camera, &tile::pixels(origin, width, height)).collect())
-        .collect();
+    let tiles = Tiles::of(job).all();
+    let batches = tiles.map(|pixels| tile::rays(&camera, &pixels).collect()).collect();
     Ok(Batches { kind: "primary", any: false, batches })
 }
 

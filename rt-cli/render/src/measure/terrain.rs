@@ -78,6 +78,7 @@ mod tests {
         let exec = Exec::best().expect("a level");
         let job = Job {
             size: (128, 96),
+            crop: None,
             view: scene.view.expect("it has one"),
             lights: Vec::new(),
             background: Vec3::ZERO,

@@ -20,7 +20,7 @@ use crate::text::read_file;
 
 pub use read::parse;
 pub(crate) use surface::{Surface, Surfaces};
-pub use write::write;
+pub use write::{poorer, write};
 
 /// Reads an NFF file.
 pub fn read(path: &Path) -> Result<Scene, Error> {

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use glam::Vec3;
 
 use crate::diag::Error;
-use crate::model::{Light, Mesh, Scene, Triangle, View};
+use crate::model::{Light, Material, Mesh, Scene, Triangle, View};
 use crate::spd::white_light;
 use crate::triangulate::Triangulator;
 
@@ -19,6 +19,24 @@ const HITHER: f32 = 0.01;
 /// and no emission: what a material has beyond that is lost.
 pub fn write(scene: &Scene, out: &mut impl Write) -> Result<(), Error> {
     Writer { out, triangulator: Triangulator::default() }.scene(scene).map_err(Error::Write)
+}
+
+/// How many materials of a scene [`write()`] makes poorer: those whose highlights, reflections or
+/// transmission are coloured or differ in strength, and those that give off light.
+pub fn poorer(scene: &Scene) -> usize {
+    let is_grey = |color: Vec3| color == Vec3::splat(color.x);
+    let holds = |material: &&Material| {
+        material.emission == Vec3::ZERO
+            && is_grey(material.specular)
+            && is_grey(material.transmission)
+            && material.mirror == material.specular
+    };
+    scene.materials.len() - scene.materials.iter().filter(holds).count()
+}
+
+/// What stands for both highlights and reflections.
+fn reflected(material: &Material) -> Vec3 {
+    if material.mirror == Vec3::ZERO { material.specular } else { material.mirror }
 }
 
 struct Writer<'a, W> {
@@ -96,9 +114,7 @@ impl<W: Write> Writer<'_, W> {
         *current = Some(wanted);
         let material = &scene.materials[wanted as usize];
         let (Vec3 { x: r, y: g, z: b }, kd) = split_diffuse(material.diffuse);
-        let reflected =
-            if material.mirror == Vec3::ZERO { material.specular } else { material.mirror };
-        let (ks, transmittance) = (grey(reflected), grey(material.transmission));
+        let (ks, transmittance) = (grey(reflected(material)), grey(material.transmission));
         let (shine, ior) = (material.shininess, material.ior);
         writeln!(self.out, "f {r} {g} {b} {kd} {ks} {shine} {transmittance} {ior}")
     }

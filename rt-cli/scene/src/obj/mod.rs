@@ -76,6 +76,7 @@ fn use_materials(
         libraries.open(source, names, library);
     }
     scene.facts.warnings.append(&mut libraries.warnings);
+    scene.facts.missing.append(&mut libraries.missing);
 
     let mut indices: HashMap<Option<u32>, u32> = HashMap::new();
     let mut default = None;

@@ -21,6 +21,8 @@ pub(super) struct Libraries {
     materials: HashMap<String, Material>,
     tried: HashSet<String>,
     pub(super) warnings: Vec<String>,
+    /// Those of them that are of a file that cannot be read.
+    pub(super) missing: Vec<String>,
 }
 
 impl Libraries {
@@ -34,14 +36,19 @@ impl Libraries {
         let Err(error) = self.open_one(&line, load) else { return };
         let several = split_names(&line);
         if several.len() < 2 {
-            self.warnings.push(cannot_read(source, names, &line, &error));
+            self.miss(cannot_read(source, names, &line, &error));
             return;
         }
         for name in several {
             if let Err(error) = self.open_one(&name, load) {
-                self.warnings.push(cannot_read(source, names, &name, &error));
+                self.miss(cannot_read(source, names, &name, &error));
             }
         }
+    }
+
+    fn miss(&mut self, warning: String) {
+        self.missing.push(warning.clone());
+        self.warnings.push(warning);
     }
 
     fn open_one(&mut self, name: &str, load: &mut Loader<'_>) -> io::Result<()> {

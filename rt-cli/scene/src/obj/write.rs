@@ -17,7 +17,10 @@ pub fn write(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> Resu
     for (count, kind) in [(scene.spheres.len(), "sphere"), (scene.cones.len(), "cone")] {
         if count > 0 {
             let (name, many) = (&scene.name, plural(count as u64, kind));
-            let message = format!("an OBJ file cannot hold {name}'s {many}: write an NFF");
+            let message = format!(
+                "an OBJ file cannot hold {name}'s {many}: write an NFF, or make triangles of them \
+                 with --tessellate"
+            );
             return Err(Error::Inexpressible(message));
         }
     }

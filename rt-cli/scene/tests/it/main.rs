@@ -1,5 +1,6 @@
 //! Readers and writers of scenes, from outside.
 
+mod aff;
 mod mtl;
 mod mutations;
 mod nff;

@@ -191,7 +191,8 @@ fn written_and_read_back() {
 fn spheres_do_not_fit_into_an_obj() {
     let scene = rt_scene::open("spd:balls:1").unwrap();
     let error = rt_scene::obj::write(&scene, None, &mut Vec::new()).unwrap_err();
-    let expected = "an OBJ file cannot hold spd:balls:1's 10 spheres: write an NFF";
+    let expected = "an OBJ file cannot hold spd:balls:1's 10 spheres: write an NFF, or make \
+                    triangles of them with --tessellate";
     assert_eq!(error.to_string(), expected);
 }
 

@@ -21,7 +21,8 @@ fn names_that_lead_nowhere() {
     let missing = "cannot read no/bunny.obj: No such file or directory";
     assert_eq!(message("no/bunny.obj"), missing);
     assert_eq!(message("no/balls.NFF"), missing.replace("bunny.obj", "balls.NFF"));
-    let format = "cannot tell the format of bunny.ply: files that are read end in .obj or .nff";
+    let format =
+        "cannot tell the format of bunny.ply: files that are read end in .obj, .nff or .aff";
     assert_eq!(message("bunny.ply"), format);
     assert_eq!(message("obj"), format.replace("bunny.ply", "obj"));
     for name in ["spd:foo", "spd:foo:3"] {

@@ -141,3 +141,38 @@ fn gears_are_triangulated_neatly() {
     assert_eq!(scene.mesh.triangles.len(), polygons);
     assert!(!scene.facts.warnings.iter().any(|warning| warning.contains("overlap")));
 }
+
+/// The museum says at its head what is in it.
+#[test]
+fn bart_counts() {
+    for (size, polygons, animated) in [(3, 10_143, 64), (4, 10_143, 256), (5, 10_143, 1_024)] {
+        let Some(scene) = open_sample(&format!("bart/museum/museum{size}.aff")) else { continue };
+        let count = |kind| scene.facts.stated.get(kind).copied().unwrap_or(0);
+        let flat = ["polygon", "patch", "mesh triangle", "textured triangle", "textured patch"];
+        assert_eq!(flat.into_iter().map(count).sum::<u64>(), polygons, "{:?}", scene.facts.stated);
+        assert_eq!(count("animated triangle"), animated);
+        assert_eq!((count("cone") + count("cylinder"), scene.cones.len()), (8, 8));
+    }
+}
+
+/// Matrices of the camera that another program computed.
+#[test]
+fn bart_cameras_stand_where_they_should() {
+    let Some(path) = sample("bart/animation_vectors.tsv") else { return };
+    let table = std::fs::read_to_string(path).unwrap();
+    for (name, start) in [("kitchen/kitchen", "0"), ("museum/museum3", "-1")] {
+        let Some(scene) = open_sample(&format!("bart/{name}.aff")) else { continue };
+        let (folder, _) = name.split_once('/').unwrap();
+        let line = format!("{folder}\tcamera\t{start}\t");
+        let row = table.lines().find_map(|row| row.strip_prefix(&line)).expect("a camera");
+        let m: Vec<f32> = row.split('\t').map(|number| number.parse().unwrap()).collect();
+        let column = |i: usize| Vec3::new(m[i], m[4 + i], m[8 + i]);
+        let view = scene.view.unwrap();
+        assert!(view.eye.distance(column(3)) < 1e-5, "{name}: {}", view.eye);
+        let forward = (view.target - view.eye).normalize();
+        assert!(forward.distance(-column(2)) < 1e-5, "{name}: {forward}");
+        assert!(view.up.distance(column(1)) < 1e-5, "{name}: {}", view.up);
+        let bounds = scene.bounds().unwrap();
+        assert!(bounds.0.is_finite() && bounds.1.is_finite());
+    }
+}

@@ -102,6 +102,7 @@ fn prepared(
     let world = World::build_with(scene, AccelKind::Bvh, plan, 1)?;
     let job = Job {
         size: picture,
+        crop: None,
         view: view.unwrap_or_else(|| default_view(world.bounds(), picture)),
         lights,
         background,

@@ -58,6 +58,7 @@ fn job(scene: &Scene, world: &World, size: (u32, u32), exec: Exec) -> Job {
     let view = scene.view.unwrap_or_else(|| default_view(world.bounds(), size));
     Job {
         size,
+        crop: None,
         view,
         lights: Vec::new(),
         background: Vec3::ZERO,

@@ -1,0 +1,83 @@
+//! Scenes.
+
+use std::path::{Path, PathBuf};
+
+use rt_scene::Scene;
+
+use super::{Output, format};
+use crate::error::Error;
+
+/// A place for a scene: a file and, beside an OBJ, its materials.
+pub(crate) struct SceneOutput {
+    path: PathBuf,
+    output: Output,
+    /// The name of the library, and its place.
+    library: Option<(String, Output)>,
+}
+
+impl SceneOutput {
+    /// Makes sure that it can be written. The extension tells the format; without one it is NFF.
+    pub(crate) fn open(path: &Path) -> Result<SceneOutput, Error> {
+        let format = format(path, &["nff", "obj"])?;
+        let output = Output::open(path)?;
+        let library = match format {
+            "obj" => {
+                let beside = path.with_extension("mtl");
+                let name = beside.file_name().and_then(|name| name.to_str()).ok_or_else(|| {
+                    Error::Usage(format!("{}: an OBJ needs a name in UTF-8", path.display()))
+                })?;
+                Some((name.to_owned(), Output::open(&beside)?))
+            }
+            _ => None,
+        };
+        Ok(SceneOutput { path: path.to_owned(), output, library })
+    }
+
+    /// Writes all of it.
+    pub(crate) fn write(self, scene: &Scene) -> Result<(), Error> {
+        let mut text = Vec::new();
+        match self.library {
+            Some((name, library)) => {
+                rt_scene::obj::write(scene, Some(&name), &mut text)?;
+                let mut materials = Vec::new();
+                rt_scene::obj::write_library(scene, &mut materials)?;
+                library.write(&materials)?;
+            }
+            None => rt_scene::nff::write(scene, &mut text)?,
+        }
+        self.output.write(&text)
+    }
+
+    /// What to call it, unless it is standard output.
+    pub(crate) fn name(&self) -> Option<String> {
+        (self.path != Path::new("-")).then(|| self.path.display().to_string())
+    }
+
+    /// What a scene has and the format has no place for.
+    pub(crate) fn lost(&self, scene: &Scene) -> Vec<String> {
+        match self.library {
+            Some(_) => lost_in_obj(scene).into_iter().collect(),
+            None => lost_in_nff(scene).into_iter().collect(),
+        }
+    }
+}
+
+fn lost_in_obj(scene: &Scene) -> Option<String> {
+    let mut lost = Vec::new();
+    if !scene.lights.is_empty() {
+        lost.push(crate::report::count(scene.lights.len(), "light"));
+    }
+    if let Some(view) = &scene.view {
+        lost.push(format!("the view ({})", crate::report::flags(view)));
+    }
+    if scene.background.is_some() {
+        lost.push("the background".to_owned());
+    }
+    (!lost.is_empty()).then(|| format!("an OBJ has no place for {}", lost.join(" and ")))
+}
+
+fn lost_in_nff(scene: &Scene) -> Option<String> {
+    let poorer = rt_scene::nff::poorer(scene);
+    let many = crate::report::count(poorer, "material");
+    (poorer > 0).then(|| format!("an NFF says less of materials: {many} will look different"))
+}
