@@ -14,10 +14,9 @@ pub fn encode16(linear: f32) -> u16 {
     code16(encode(f64::from(linear)))
 }
 
-/// One linear channel on the scale of sRGB, not rounded to any code: 0 to 1; NaN is black.
+/// One linear channel on the scale of sRGB, not rounded to any code: 0 to 1, or NaN.
 pub fn encode(linear: f64) -> f64 {
-    // Not `clamp`, which keeps NaN.
-    let linear = linear.max(0.0).min(1.0);
+    let linear = linear.clamp(0.0, 1.0);
     if linear <= 0.0031308 { linear * 12.92 } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 
@@ -28,12 +27,13 @@ pub fn decode(code: f64) -> f64 {
 
 /// A number from 0 to 1 as one of 256; NaN is black.
 pub(crate) fn code8(value: f64) -> u8 {
-    (value.max(0.0).min(1.0) * 255.0 + 0.5) as u8
+    // The conversion stays within its range, and makes zero of NaN.
+    (value * 255.0 + 0.5) as u8
 }
 
 /// A number from 0 to 1 as one of 65,536; NaN is black.
 pub(crate) fn code16(value: f64) -> u16 {
-    (value.max(0.0).min(1.0) * 65535.0 + 0.5) as u16
+    (value * 65535.0 + 0.5) as u16
 }
 
 /// The linear values at which the codes 1, 2, …, 255 begin: half a code before the code itself.

@@ -46,7 +46,7 @@ fn nff_holds_all_of_an_nff() {
             pixels(&scratch, "a.nff", &["-s", "40x40"])
                 == pixels(&scratch, scene, &["-s", "40x40"])
         );
-        let again = scratch.rt(&["convert", "a.nff", "-o", "-"]).exits(0);
+        let again = scratch.rt(&["convert", "a.nff", "-q", "-o", "-"]).exits(0);
         assert!(again.stdout == scratch.bytes("a.nff"), "{scene}: written again it is the same");
         assert!(again.stderr.is_empty(), "{}", again.stderr);
     }

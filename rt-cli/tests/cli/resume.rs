@@ -8,10 +8,10 @@ use crate::support::{Run, Scratch, argv, run};
 
 /// Minutes of work, if it were let; many tiles, the first of which are soon done.
 const LONG: [&str; 9] =
-    ["render", "spd:balls:4", "--accel", "brute", "-j1", "-s", "2048x2048", "-o", "a.png"];
+    ["render", "spd:balls:4", "--accel", "brute", "-j1", "-s", "1024x1024", "-o", "a.png"];
 
 /// The same picture in no time.
-const SHORT: [&str; 6] = ["render", "spd:balls:4", "-s", "2048x2048", "-o", "a.png"];
+const SHORT: [&str; 6] = ["render", "spd:balls:4", "-s", "1024x1024", "-o", "a.png"];
 
 /// Starts a command and waits until it has finished a tile: in a pipe there are lines.
 #[track_caller]
@@ -78,10 +78,10 @@ fn an_interrupt_keeps_what_is_finished_and_no_more() {
     let run = scratch.rt(&[&SHORT[..], &["--resume"]].concat()).exits(0);
     let resumed = run.stderr.lines().find(|line| line.starts_with("resumed: ")).expect("told");
     let words: Vec<_> = resumed.split(' ').collect();
-    let ["resumed:", found, "of", "4096", "tiles", "are", "there"] = words[..] else {
+    let ["resumed:", found, "of", "1024", "tiles", "are", "there"] = words[..] else {
         panic!("{resumed:?}")
     };
-    assert!(found.parse::<u32>().is_ok_and(|found| found > 0 && found < 4096), "{resumed}");
+    assert!(found.parse::<u32>().is_ok_and(|found| found > 0 && found < 1024), "{resumed}");
     assert_eq!(scratch.names(), ["a.png"], "nothing is left beside a complete picture");
     let whole = scratch.bytes("a.png");
     scratch.rt(&SHORT).exits(0);
@@ -107,7 +107,7 @@ fn with_resume_even_a_kill_loses_nothing() {
     let stats = ["--resume", "-q", "--stats-json", "-"];
     let rest = scratch.rt(&[&SHORT[..], &stats].concat()).exits(0).json();
     let traced = rest["rays"]["primary"].as_u64().unwrap();
-    assert!(traced > 0 && traced < 2048 * 2048, "{traced} rays");
+    assert!(traced > 0 && traced < 1024 * 1024, "{traced} rays");
     let whole = scratch.bytes("a.png");
     scratch.rt(&SHORT).exits(0);
     assert!(scratch.bytes("a.png") == whole);
@@ -124,7 +124,7 @@ fn another_picture_is_refused_and_said_why() {
     let run = with(&["--resume"]).exits(1);
     for part in [
         "a.pfm.part is of another picture: it has 'scene spd:balls:4, ",
-        "'size 2048x2048', ",
+        "'size 1024x1024', ",
         ", and this one scene room.obj, ",
         "size 40x30, ",
         ": --overwrite begins anew",
@@ -225,7 +225,7 @@ fn what_is_no_file_has_nothing_beside_it() {
     let scratch = Scratch::with_room();
     let run = scratch.rt(&["render", "room.obj", "-o", "-", "--resume"]).exits(1);
     assert_eq!(run.stderr, "error: --resume takes a file to write to: - is none\n");
-    let args = ["render", "spd:balls:4", "--accel", "brute", "-j1", "-s", "2048x2048", "-o", "-"];
+    let args = ["render", "spd:balls:4", "--accel", "brute", "-j1", "-s", "1024x1024", "-o", "-"];
     let run = interrupt_after(&scratch, "2", &args).exits(130);
     assert!(run.stderr.lines().last().unwrap().starts_with("error: interrupted at "));
     assert!(run.stdout.is_empty());
