@@ -6,6 +6,7 @@ use simd4::{SimdF32, SimdMask};
 
 use super::axes::{Axes, OwnAxes, SameAxis};
 use super::{Boxes, Packet};
+use crate::Ray;
 use crate::tri::Records;
 
 /// The signs and axes of a packet. Both kinds give the same bits; [`Coherent`] does it by
@@ -120,6 +121,24 @@ impl<V: SimdF32> Packet<V> {
 }
 
 impl<V: SimdF32> Coherent<V> {
+    /// Of one ray in all lanes. Without branches, which would be guesses.
+    #[inline(always)]
+    pub fn of_one(s: V::Simd, ray: &Ray) -> Self {
+        let (origin, dir) = (ray.origin.to_array(), ray.dir.to_array());
+        let [x, y, z] = dir.map(f32::abs);
+        let in_x = (x >= y) & (x >= z);
+        let in_y = (y >= z) & !in_x;
+        let axes = SameAxis::new(2 - 2 * usize::from(in_x) - usize::from(in_y));
+        let [kx, ky, kz] = axes.order();
+        let shear = Shear {
+            origin: Vec3::splat(s, [origin[kx], origin[ky], origin[kz]]),
+            x: V::splat(s, dir[kx] / dir[kz]),
+            y: V::splat(s, dir[ky] / dir[kz]),
+            z: V::splat(s, 1.0 / dir[kz]),
+        };
+        Coherent::new(dir.map(f32::is_sign_negative), axes, shear)
+    }
+
     /// Of rays with these signs of their directions.
     #[inline(always)]
     pub(super) fn new([x, y, z]: [bool; 3], axes: SameAxis, shear: Shear<V>) -> Self {

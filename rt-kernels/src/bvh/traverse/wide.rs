@@ -22,7 +22,7 @@
 use simd4::{SimdF32, SimdMask};
 
 use crate::bvh::layout::{Child, Wide, WideNode};
-use crate::packet::{Ask, Frame, Packet, Query, Single};
+use crate::packet::{Ask, Coherent, Frame, Packet, Query, Single};
 use crate::quadric::{cone, sphere};
 use crate::slab::{BoxKernel, Crossing, Robust};
 use crate::tri::knobs::Division;
@@ -59,10 +59,8 @@ pub(crate) fn trace<V: SimdF32, const N: usize>(
 ) -> Hit {
     let packet = Packet::<V>::splat(s, ray);
     let mut query = Single::new(&packet, ask);
-    // All lanes agree.
-    if let Ok(frame) = packet.frame(s) {
-        traverse(s, wide, stack, Child::ROOT, &packet, &frame, &mut query, stats);
-    }
+    let frame = Coherent::of_one(s, ray);
+    traverse(s, wide, stack, Child::ROOT, &packet, &frame, &mut query, stats);
     query.hit()
 }
 
