@@ -139,12 +139,15 @@ pub(crate) struct ShadingArgs {
     /// What is computed of a hit.
     #[arg(long, value_enum, value_name = "KIND", default_value_t)]
     pub(crate) integrator: IntegratorArg,
-    /// How often a ray may be reflected.
+    /// How often a ray may be reflected or refracted.
     #[arg(long, value_name = "N", default_value_t = 5)]
     pub(crate) depth: u32,
     /// Let light through everything.
     #[arg(long)]
     pub(crate) no_shadows: bool,
+    /// Leave out the pictures on surfaces.
+    #[arg(long)]
+    pub(crate) no_textures: bool,
 }
 
 /// How a scene is opened.

@@ -10,7 +10,7 @@ use rt_render::{
 };
 use rt_scene::Scene;
 use rt_tests::hash::fnv1a;
-use rt_tests::scenes::{bumpy, room};
+use rt_tests::scenes::{bumpy, glass, room};
 use rt_tests::trace::ways;
 
 /// Neither side is a multiple of the tiles', and no tile is alone.
@@ -19,9 +19,11 @@ const SIZE: (u32, u32) = (75, 50);
 const INTEGRATORS: [Integrator; 4] =
     [Integrator::Whitted, Integrator::Eyelight, Integrator::Normals, Integrator::Depth];
 
-fn scenes() -> [Scene; 5] {
-    let computed = |name| rt_scene::open(name).expect("a scene that is computed");
-    [bumpy(), room(), computed("spd:balls:2"), computed("spd:rings:1"), computed("spd:tree:3")]
+fn scenes() -> Vec<Scene> {
+    let computed = |name: &String| rt_scene::open(name).expect("a scene that is computed");
+    let procedures = ["balls:2", "rings:1", "tree:3", "mount:2", "gears:1"];
+    let computed = procedures.map(|name| computed(&format!("spd:{name}")));
+    [bumpy(), room(), glass()].into_iter().chain(computed).collect()
 }
 
 /// The picture of a scene, seen as it says or from in front.

@@ -60,7 +60,7 @@ const KINDS: usize = 6;
 fn foretold(eye: Vec3, corners: [Vec3; 3]) -> [Prediction; 3] {
     let mut scene = Scene::default();
     scene.mesh.positions = corners.to_vec();
-    let triangle = rt_scene::Triangle { position: [0, 1, 2], normal: None, material: 0 };
+    let triangle = rt_scene::Triangle { position: [0, 1, 2], normal: None, uv: None, material: 0 };
     scene.mesh.triangles = vec![triangle];
     let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     let view = View { eye, target: middle, up: Vec3::Y, fov_y: 40.0, size: None };

@@ -28,6 +28,7 @@ fn add(scene: &mut Scene, mesh: &Mesh, material: u32, smooth_about: Option<Vec3>
     scene.mesh.triangles.extend(mesh.faces.iter().map(|face| Triangle {
         position: face.map(|i| i + first),
         normal: smooth_about.map(|_| face.map(|i| i + first_normal)),
+        uv: None,
         material,
     }));
 }
@@ -100,6 +101,48 @@ pub fn room() -> Scene {
     scene
 }
 
+/// The room with glass in it: balls that bend light by Fresnel's equations and without, one of air
+/// within one of glass, a block of triangles and a coloured sheet that bends nothing.
+pub fn glass() -> Scene {
+    let clear = Material {
+        transmission: Vec3::splat(0.9),
+        mirror: Vec3::splat(0.9),
+        specular: Vec3::splat(0.5),
+        shininess: 80.0,
+        ior: 1.5,
+        fresnel: true,
+        ..matt(0.02, 0.02, 0.02)
+    };
+    let plain = Material { mirror: Vec3::splat(0.1), fresnel: false, ..clear.clone() };
+    let air = Material { ior: 1.0 / 1.5, specular: Vec3::ZERO, ..clear.clone() };
+    let sheet = Material {
+        transmission: Vec3::new(0.1, 0.3, 0.6),
+        mirror: Vec3::ZERO,
+        ior: 1.0,
+        fresnel: false,
+        ..matt(0.1, 0.05, 0.05)
+    };
+    let mut scene = room();
+    scene.name = "glass".to_owned();
+    let first = scene.materials.len() as u32;
+    scene.materials.extend([clear, plain, air, sheet]);
+    let ball = |[x, y, z]: [f32; 3], radius, material| Sphere {
+        center: Vec3::new(x, y, z),
+        radius,
+        material: first + material,
+    };
+    scene.spheres = vec![
+        ball([-0.5, 0.25, 0.5], 0.25, 0),
+        ball([0.5, -0.6875, 0.75], 0.3125, 1),
+        ball([0.25, 0.375, 0.75], 0.25, 0),
+        ball([0.25, 0.375, 0.75], 0.125, 2),
+    ];
+    let block = Mesh::cube(1).map(|v| snap(v * 0.1875) + Vec3::new(-0.0625, -0.75, 0.875));
+    add(&mut scene, &block, first, None);
+    quad(&mut scene, first + 3, 2, 0.5, Vec3::new(-0.5, -0.5, 0.0), 0.375);
+    scene
+}
+
 /// A square across an axis, at `side` of it, `half` from its middle to its sides.
 fn quad(scene: &mut Scene, material: u32, axis: usize, side: f32, offset: Vec3, half: f32) {
     let first = scene.mesh.positions.len() as u32;
@@ -110,7 +153,7 @@ fn quad(scene: &mut Scene, material: u32, axis: usize, side: f32, offset: Vec3, 
     }
     for face in [[0, 1, 2], [0, 2, 3]] {
         let position = face.map(|i| first + i);
-        scene.mesh.triangles.push(Triangle { position, normal: None, material });
+        scene.mesh.triangles.push(Triangle { position, normal: None, uv: None, material });
     }
 }
 

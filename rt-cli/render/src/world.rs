@@ -1,6 +1,7 @@
 //! A scene made ready to trace.
 
 use std::fmt::{self, Write};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
@@ -8,10 +9,11 @@ use rt_kernels::geom::{Aabb, Cone, Sphere, Triangle};
 use rt_kernels::tri::Method;
 use rt_kernels::{Accelerator, Brute, BuildError, Bvh, Exec, KdBuilder, KdPlan, KdTree};
 use rt_kernels::{Mailbox, Plan, Primitives};
-use rt_scene::Scene;
+use rt_scene::{Scene, Texture};
 
 use crate::exec::{RayonJoin, on_threads};
 use crate::job::RenderError;
+use crate::shade::{Finish, Point, Shader, Textured};
 
 /// What finds the hits. The picture does not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,6 +47,8 @@ impl AccelKind {
 pub struct World {
     /// The scene, with all coordinates multiplied by `scale`.
     pub(crate) scene: Scene,
+    /// One for each material.
+    shaders: Vec<Box<dyn Shader>>,
     pub(crate) accel: Box<dyn Accelerator>,
     /// The power of two that brings the coordinates into the range of the kernels.
     pub(crate) scale: f32,
@@ -59,6 +63,9 @@ impl World {
     ///
     /// # Errors
     /// If the scene is empty, or the kernels refuse it.
+    ///
+    /// # Panics
+    /// If a material names a texture that is not there.
     pub fn build(scene: Scene, kind: AccelKind, threads: usize) -> Result<World, RenderError> {
         World::build_with(scene, kind, Plan::default(), threads)
     }
@@ -107,12 +114,34 @@ impl World {
             })
         })??;
         let build_time = start.elapsed();
-        Ok(World { scene, accel, scale, kind, plan, bounds, build_time })
+        let textures = &scene.textures;
+        let shaders = scene.materials.iter().map(|material| shader(material, textures)).collect();
+        Ok(World { scene, shaders, accel, scale, kind, plan, bounds, build_time })
     }
 
     /// What the scene is called.
     pub fn name(&self) -> &str {
         &self.scene.name
+    }
+
+    /// Puts another shader in place of a material's.
+    ///
+    /// # Panics
+    /// If there is no material of that number.
+    pub fn set_shader(&mut self, material: usize, shader: impl Shader + 'static) {
+        self.shaders[material] = Box::new(shader);
+    }
+
+    /// What a surface is like at a point.
+    pub(crate) fn finish(&self, point: &Point) -> Finish {
+        let finish = self.shader(point).finish(point);
+        let own = finish.normal == Vec3::ZERO;
+        Finish { normal: if own { point.normal } else { finish.normal }, ..finish }
+    }
+
+    /// The shader of the material at a point.
+    pub(crate) fn shader(&self, point: &Point) -> &dyn Shader {
+        &*self.shaders[point.material as usize]
     }
 
     /// What finds the hits.
@@ -178,16 +207,18 @@ impl World {
         self.build_time
     }
 
-    /// The memory of the scene: geometry, materials and lights.
+    /// The memory of the scene: geometry, materials, textures and lights.
     pub fn scene_bytes(&self) -> usize {
         let (scene, mesh) = (&self.scene, &self.scene.mesh);
         size_of_val(&*mesh.positions)
             + size_of_val(&*mesh.normals)
+            + size_of_val(&*mesh.uvs)
             + size_of_val(&*mesh.triangles)
             + size_of_val(&*scene.spheres)
             + size_of_val(&*scene.cones)
             + size_of_val(&*scene.materials)
             + size_of_val(&*scene.lights)
+            + scene.textures.iter().map(|texture| size_of_val(texture.pixels())).sum::<usize>()
     }
 
     /// The memory of the acceleration structure and its copy of the primitives.
@@ -203,6 +234,7 @@ impl World {
             spheres,
             cones,
             materials,
+            textures,
             name: _,
             // These are the job's.
             lights: _,
@@ -213,6 +245,7 @@ impl World {
         let mut hash = Fnv(0xCBF2_9CE4_8422_2325);
         let what = (mesh, spheres, cones, materials, self.scale);
         write!(hash, "{what:?}").expect("a number takes any text");
+        textures.iter().for_each(|texture| hash.take(texture.pixels().as_flattened()));
         hash.0
     }
 
@@ -222,15 +255,29 @@ impl World {
     }
 }
 
-/// FNV-1a of a text.
+/// FNV-1a of a text, or of any bytes.
 struct Fnv(u64);
+
+impl Fnv {
+    fn take(&mut self, bytes: &[u8]) {
+        self.0 = bytes
+            .iter()
+            .fold(self.0, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3));
+    }
+}
 
 impl Write for Fnv {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        self.0 = text
-            .bytes()
-            .fold(self.0, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3));
+        self.take(text.as_bytes());
         Ok(())
+    }
+}
+
+/// The built-in shader of a material.
+fn shader(material: &rt_scene::Material, textures: &[Arc<Texture>]) -> Box<dyn Shader> {
+    match material.diffuse_map {
+        Some(map) => Box::new(Textured::new(material, map, textures[map.texture as usize].clone())),
+        None => Box::new(material.clone()),
     }
 }
 

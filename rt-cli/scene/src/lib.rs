@@ -17,14 +17,18 @@ pub mod obj;
 pub mod spd;
 mod tessellate;
 mod text;
+mod texture;
 mod triangulate;
 
 use std::ffi::OsStr;
 use std::path::Path;
 
 pub use diag::{Diagnostic, Error};
-pub use model::{Cone, Facts, Light, Material, Mesh, Scene, Skipped, Sphere, Triangle, View};
+pub use model::{
+    ColorMap, Cone, Facts, Light, Material, Mesh, Scene, Skipped, Sphere, Triangle, View,
+};
 pub use tessellate::{SPD_RESOLUTION, tessellate};
+pub use texture::Texture;
 
 /// Opens a scene by name: `spd:NAME[:SIZE]` is generated, anything else is a file whose extension
 /// tells its format.

@@ -1,10 +1,11 @@
 //! The scene as data.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
-use crate::diag::plural;
+use crate::texture::Texture;
 
 /// Everything a renderer needs to know of a scene. Coordinates are in world space, right-handed,
 /// in the units of the file.
@@ -20,6 +21,8 @@ pub struct Scene {
     pub cones: Vec<Cone>,
     /// The materials that all these index. Never empty in a scene that was opened.
     pub materials: Vec<Material>,
+    /// The pictures that materials name.
+    pub textures: Vec<Arc<Texture>>,
     /// Point lights. Empty where the file states none.
     pub lights: Vec<Light>,
     /// The colour of rays that hit nothing, linear, if the file states one.
@@ -42,6 +45,12 @@ impl Scene {
         points.chain(spheres).chain(cones).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
+    /// Leaves out all textures: materials are of the colours that they state.
+    pub fn remove_textures(&mut self) {
+        self.textures.clear();
+        self.materials.iter_mut().for_each(|material| material.diffuse_map = None);
+    }
+
     /// What every reader does last: looks the scene over.
     pub(crate) fn finish(&mut self) {
         if self.materials.is_empty() {
@@ -49,11 +58,6 @@ impl Scene {
         }
         let flat = self.mesh.triangles.iter().filter(|triangle| self.mesh.area(triangle) == 0.0);
         let flat = flat.count();
-        let clear = self.materials.iter().filter(|m| m.transmission != Vec3::ZERO).count();
-        if clear > 0 {
-            let many = plural(clear as u64, "transparent material");
-            self.facts.warnings.push(format!("{many}: drawn opaque"));
-        }
         match flat {
             0 => {}
             1 => self.facts.warnings.push("1 triangle has no area".to_owned()),
@@ -72,6 +76,8 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Vertex normals, as stated (not necessarily of unit length); every component is finite.
     pub normals: Vec<Vec3>,
+    /// Texture coordinates, v upwards; every component is finite.
+    pub uvs: Vec<Vec2>,
     /// The triangles. Some may have no area.
     pub triangles: Vec<Triangle>,
 }
@@ -91,6 +97,8 @@ pub struct Triangle {
     pub position: [u32; 3],
     /// Indices into [`Mesh::normals`], where the file gives normals.
     pub normal: Option<[u32; 3]>,
+    /// Indices into [`Mesh::uvs`], where the file gives texture coordinates.
+    pub uv: Option<[u32; 3]>,
     /// Index into [`Scene::materials`].
     pub material: u32,
 }
@@ -139,6 +147,8 @@ pub struct Material {
     pub name: String,
     /// Diffuse reflectance.
     pub diffuse: Vec3,
+    /// The picture that multiplies it.
+    pub diffuse_map: Option<ColorMap>,
     /// Specular reflectance: the strength of highlights.
     pub specular: Vec3,
     /// The cosine exponent of highlights.
@@ -149,6 +159,8 @@ pub struct Material {
     pub transmission: Vec3,
     /// The index of refraction: of light within it, by that outside; 1 bends nothing.
     pub ior: f32,
+    /// Whether reflection and transmission depend on the angle, by Fresnel's equations.
+    pub fresnel: bool,
     /// Light that the surface itself gives off.
     pub emission: Vec3,
 }
@@ -159,14 +171,27 @@ impl Default for Material {
         Material {
             name: String::new(),
             diffuse: Vec3::splat(0.8),
+            diffuse_map: None,
             specular: Vec3::ZERO,
             shininess: 1.0,
             mirror: Vec3::ZERO,
             transmission: Vec3::ZERO,
             ior: 1.0,
+            fresnel: false,
             emission: Vec3::ZERO,
         }
     }
+}
+
+/// How a picture lies on a surface: repeated without end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ColorMap {
+    /// Index into [`Scene::textures`].
+    pub texture: u32,
+    /// What texture coordinates are multiplied by.
+    pub scale: Vec2,
+    /// What is added to them then.
+    pub offset: Vec2,
 }
 
 /// A point light without attenuation.

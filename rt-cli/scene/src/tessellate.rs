@@ -101,6 +101,7 @@ impl Ball {
             mesh.triangles.extend(self.triangles.iter().map(|corners| Triangle {
                 position: corners.map(|corner| first + corner),
                 normal: Some(corners.map(|corner| first_normal + corner)),
+                uv: None,
                 material: sphere.material,
             }));
         }
@@ -143,7 +144,12 @@ impl Circle {
             let normal = |side: u32| first_normal + side % sides;
             let mut add = |position, normals: [u32; 3]| {
                 let normal = Some(normals.map(normal));
-                mesh.triangles.push(Triangle { position, normal, material: cone.material });
+                mesh.triangles.push(Triangle {
+                    position,
+                    normal,
+                    uv: None,
+                    material: cone.material,
+                });
             };
             if base_radius > 0.0 {
                 add([base(side), base(next), apex(next)], [side, next, next]);

@@ -45,6 +45,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
     if !args.quiet {
         ui::warnings(&scene);
     }
+    if args.shading.no_textures {
+        scene.remove_textures();
+    }
     if args.verbose {
         let (name, took) = (&scene.name, report::time(start.elapsed()));
         ui::say(&format!("{name}: opened in {took}: {}", report::contents(&scene)));

@@ -59,8 +59,12 @@ impl Rendered<'_> {
     /// The closing line.
     pub(crate) fn line(&self) -> String {
         let (world, made) = (self.world, &self.made);
-        let kinds =
-            [("primary", made.primary), ("shadow", made.shadow), ("reflection", made.reflection)];
+        let kinds = [
+            ("primary", made.primary),
+            ("shadow", made.shadow),
+            ("reflection", made.reflection),
+            ("refraction", made.refraction),
+        ];
         let speeds: Vec<_> = kinds
             .into_iter()
             .filter_map(|(kind, report)| Some(format!("{kind} {:.1}", report.mrays_per_s()?)))
@@ -156,13 +160,14 @@ impl Rendered<'_> {
                 "primary": made.primary.rays,
                 "shadow": made.shadow.rays,
                 "reflection": made.reflection.rays,
-                "refraction": 0,
+                "refraction": made.refraction.rays,
             },
             "mrays_per_s": speed(made.all()),
             "mrays_per_s_by_kind": {
                 "primary": speed(made.primary),
                 "shadow": speed(made.shadow),
                 "reflection": speed(made.reflection),
+                "refraction": speed(made.refraction),
             },
             "node_visits": made.stats.node_visits,
             "box_tests": made.stats.box_tests,

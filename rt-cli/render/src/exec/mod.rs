@@ -5,8 +5,8 @@ pub(crate) mod tile;
 
 pub(crate) use tally::Tally;
 pub use tally::{KindReport, Report};
-pub(crate) use tile::TileJob;
 pub use tile::Tiles;
+pub(crate) use tile::{PointLight, TileJob};
 
 use std::collections::BTreeMap;
 use std::error::Error;

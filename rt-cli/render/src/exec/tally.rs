@@ -18,7 +18,7 @@ struct KindTally {
 /// Counts and times, of one tile or of several.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Tally {
-    kinds: [KindTally; 3],
+    kinds: [KindTally; 4],
     shading: Duration,
     stats: Stats,
 }
@@ -74,6 +74,7 @@ impl Tally {
             primary: kind(RayKind::Primary),
             shadow: kind(RayKind::Shadow),
             reflection: kind(RayKind::Reflection),
+            refraction: kind(RayKind::Refraction),
             shading: self.shading / threads,
             total,
             stats: self.stats,
@@ -117,6 +118,8 @@ pub struct Report {
     pub shadow: KindReport,
     /// Rays from mirrors.
     pub reflection: KindReport,
+    /// Rays that go through surfaces.
+    pub refraction: KindReport,
     /// The time spent on shading, summed over the threads and divided by their number.
     pub shading: Duration,
     /// From the first tile to the last.
@@ -128,7 +131,7 @@ pub struct Report {
 impl Report {
     /// All rays together.
     pub fn all(&self) -> KindReport {
-        let kinds = [self.primary, self.shadow, self.reflection];
+        let kinds = [self.primary, self.shadow, self.reflection, self.refraction];
         KindReport {
             rays: kinds.iter().map(|kind| kind.rays).sum(),
             time: kinds.iter().map(|kind| kind.time).sum(),

@@ -30,13 +30,13 @@ pub(super) fn integrate(
 /// Diffuse colour times the cosine to the viewer.
 pub(super) fn eyelight(job: &TileJob<'_>, ray: &Ray, hit: &Hit) -> Vec3 {
     let surface = Surface::at(job.world, ray, hit);
-    let material = &job.world.scene.materials[surface.material as usize];
-    material.diffuse * surface.normal.dot(-ray.dir).max(0.0) + material.emission
+    let finish = job.world.finish(&surface.point);
+    finish.diffuse * finish.normal.dot(-ray.dir).max(0.0) + finish.emission
 }
 
 /// The normal as a colour.
 pub(super) fn normals(job: &TileJob<'_>, ray: &Ray, hit: &Hit) -> Vec3 {
-    Surface::at(job.world, ray, hit).normal * 0.5 + 0.5
+    Surface::at(job.world, ray, hit).point.normal * 0.5 + 0.5
 }
 
 /// The distance as a grey, between those of the scene's bounds.

@@ -15,7 +15,7 @@ use crate::exec::{Tally, TileJob, tile};
 /// What is computed of a hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Integrator {
-    /// Phong shading with shadows and mirror reflections (Whitted 1980).
+    /// Phong shading with shadows, reflection and refraction (Whitted 1980).
     #[default]
     Whitted,
     /// Diffuse colour times the cosine to the viewer.
@@ -52,6 +52,8 @@ pub enum RayKind {
     Shadow,
     /// From a mirror.
     Reflection,
+    /// Through a surface.
+    Refraction,
 }
 
 /// The memory of one thread, used again for every tile.

@@ -1,12 +1,13 @@
 //! Recursive ray tracing, without recursion: round after round, all rays of a tile that bounced
-//! equally often go together. Source: Whitted 1980.
+//! equally often go together, reflected ones first. Source: Whitted 1980.
 
 use glam::Vec3;
-use rt_kernels::{Ray, Rays};
+use rt_kernels::{Hits, PacketSize, Ray, Rays};
+use simd4::dispatch;
 
 use super::RayKind;
-use crate::exec::{Tally, TileJob};
-use crate::shade::{Surface, phong};
+use crate::exec::{PointLight, Tally, TileJob};
+use crate::shade::{self, Finish, Lit, Points, Surface, bounce};
 
 /// A ray's pixel, and what it adds to it.
 #[derive(Clone, Copy)]
@@ -18,23 +19,47 @@ struct Path {
 /// A surface that a path met.
 struct Met {
     path: Path,
-    dir: Vec3,
     surface: Surface,
+    finish: Finish,
+}
+
+/// Rays of one kind, and what each is for.
+#[derive(Default)]
+struct Batch {
+    rays: Rays,
+    paths: Vec<Path>,
+}
+
+impl Batch {
+    fn clear(&mut self) {
+        self.rays.clear();
+        self.paths.clear();
+    }
 }
 
 /// Memory for one tile.
 #[derive(Default)]
 pub(super) struct Scratch {
-    paths: Vec<Path>,
+    /// Reflected and refracted rays.
+    batches: [Batch; 2],
     met: Vec<Met>,
+    points: Points,
+    lit: Lit,
     shadows: Rays,
     /// For each shadow ray, its pixel and what the light adds if nothing is in the way.
-    lit: Vec<Path>,
+    waiting: Vec<Path>,
     occluded: Vec<bool>,
 }
 
 /// What changes a pixel by less than this is not followed: far less than half a code of 8 bits.
 const LEAST_WEIGHT: f32 = 1.0 / 4096.0;
+
+/// About the most paths that are followed at once.
+const MAX_PATHS: usize = 1 << 20;
+
+/// The most paths that a pixel can have at once. Of a surface's weights none adds up to more than 1,
+/// in each of three channels.
+const MAX_PATHS_OF_PIXEL: usize = 3 * (1.0 / LEAST_WEIGHT) as usize;
 
 pub(super) fn integrate(
     job: &TileJob<'_>,
@@ -43,102 +68,154 @@ pub(super) fn integrate(
     tally: &mut Tally,
 ) {
     let super::Scratch { rays, hits, whitted: scratch } = scratch;
-    let start = |pixel| Path { pixel, weight: Vec3::ONE };
-    scratch.paths.clear();
-    scratch.paths.extend((0..rays.len()).map(start));
-
-    let mut kind = RayKind::Primary;
-    for bounce in 0..=job.job.depth {
-        tally.closest(job, kind, rays, hits);
-        tally.shading(|| {
-            scratch.met.clear();
-            for (i, &path) in scratch.paths.iter().enumerate() {
-                match hits.get(i) {
-                    Some(hit) => {
-                        let ray = rays.get(i);
-                        let surface = Surface::at(job.world, &ray, &hit);
-                        let material = &job.world.scene.materials[surface.material as usize];
-                        colors[path.pixel] += path.weight * material.emission;
-                        scratch.met.push(Met { path, dir: ray.dir, surface });
-                    }
-                    None => colors[path.pixel] += path.weight * job.job.background,
-                }
-            }
-        });
-        scratch.light(job, colors, tally);
-        if bounce == job.job.depth {
-            break;
-        }
-        tally.shading(|| scratch.reflect(job, rays));
-        if rays.is_empty() {
-            break;
-        }
-        kind = RayKind::Reflection;
+    // A pixel's sum does not depend on what other pixels go with it.
+    let paths = MAX_PATHS_OF_PIXEL.min(1 << job.job.depth.min(16));
+    let together = MAX_PATHS / paths;
+    if rays.len() <= together {
+        return scratch.pixels(job, rays, 0, hits, colors, tally);
+    }
+    let mut some = Rays::new();
+    for first in (0..rays.len()).step_by(together) {
+        some.clear();
+        some.extend((first..rays.len().min(first + together)).map(|i| rays.get(i)));
+        scratch.pixels(job, &some, first, hits, colors, tally);
     }
 }
 
-/// The direction of a reflected ray.
-fn mirror(dir: Vec3, normal: Vec3) -> Vec3 {
-    dir - normal * (2.0 * dir.dot(normal))
-}
-
 impl Scratch {
+    /// Computes the colours of the pixels from `first` on, one for each primary ray.
+    fn pixels(
+        &mut self,
+        job: &TileJob<'_>,
+        rays: &Rays,
+        first: usize,
+        hits: &mut Hits,
+        colors: &mut [Vec3],
+        tally: &mut Tally,
+    ) {
+        self.met.clear();
+        tally.closest(job, RayKind::Primary, rays, hits);
+        let start = |i| Path { pixel: first + i, weight: Vec3::ONE };
+        tally.shading(|| meet(&mut self.met, job, rays, hits, start, colors));
+        for bounces in 0.. {
+            self.light(job, colors, tally);
+            if bounces == job.job.depth {
+                break;
+            }
+            tally.shading(|| self.send());
+            self.met.clear();
+            for (batch, kind) in self.batches.iter().zip([RayKind::Reflection, RayKind::Refraction])
+            {
+                if !batch.rays.is_empty() {
+                    tally.closest(job, kind, &batch.rays, hits);
+                    let path = |i: usize| batch.paths[i];
+                    tally.shading(|| meet(&mut self.met, job, &batch.rays, hits, path, colors));
+                }
+            }
+            if self.met.is_empty() {
+                break;
+            }
+        }
+    }
+
     /// Adds the light of every light to the surfaces met, where no shadow falls.
     fn light(&mut self, job: &TileJob<'_>, colors: &mut [Vec3], tally: &mut Tally) {
         tally.shading(|| {
+            self.points.clear();
+            for Met { path, surface, finish } in &self.met {
+                self.points.push(surface, finish, path.weight);
+            }
+            self.points.pad();
             self.shadows.clear();
-            self.lit.clear();
+            self.waiting.clear();
             for light in job.lights {
-                for Met { path, dir, surface } in &self.met {
-                    let to_light = light.position - surface.leave;
-                    let distance = to_light.length();
-                    let to_light = to_light * (1.0 / distance);
-                    // Also false for the NaN of a light on the very spot.
-                    let faces_light = surface.true_normal.dot(to_light) > 0.0;
-                    if !faces_light {
-                        continue;
-                    }
-                    let material = &job.world.scene.materials[surface.material as usize];
-                    let sent = phong(material, surface.normal, to_light, *dir);
-                    let weight = path.weight * light.color * sent;
-                    if weight == Vec3::ZERO {
-                        continue;
-                    }
-                    if light.casts_shadows {
-                        let ray = Ray::new(surface.leave, to_light);
-                        self.shadows.push(Ray { tmax: distance, ..ray });
-                        self.lit.push(Path { pixel: path.pixel, weight });
-                    } else {
-                        colors[path.pixel] += weight;
-                    }
-                }
+                self.lit_by(job, light, colors);
             }
         });
         tally.any(job, &self.shadows, &mut self.occluded);
         tally.shading(|| {
-            for (lit, _) in self.lit.iter().zip(&self.occluded).filter(|(_, occluded)| !**occluded)
-            {
-                colors[lit.pixel] += lit.weight;
+            for (waiting, occluded) in self.waiting.iter().zip(&self.occluded) {
+                if !occluded {
+                    colors[waiting.pixel] += waiting.weight;
+                }
             }
         });
     }
 
-    /// Makes the rays and paths of the next round: those that mirrors send on.
-    fn reflect(&mut self, job: &TileJob<'_>, rays: &mut Rays) {
-        rays.clear();
-        self.paths.clear();
-        for Met { path, dir, surface } in &self.met {
-            let material = &job.world.scene.materials[surface.material as usize];
-            let weight = path.weight * material.mirror;
-            if weight.max_element() < LEAST_WEIGHT {
+    /// Adds what one light adds, or sends shadow rays to it.
+    fn lit_by(&mut self, job: &TileJob<'_>, light: &PointLight, colors: &mut [Vec3]) {
+        let Scratch { met, points, lit, .. } = self;
+        match job.job.exec.packet {
+            PacketSize::Single => {
+                shade::light::<simd4::scalar::f32x1>(simd4::Scalar::new(), points, light, lit);
+            }
+            _ => dispatch!(job.job.exec.level, s => lit_in_lanes(s, points, light, lit)),
+        }
+        for (i, Met { path, surface, finish }) in met.iter().enumerate() {
+            let to_light = lit.to_light(i);
+            let mut weight = lit.added(i);
+            if finish.own_light {
+                let point = &surface.point;
+                let faces = point.true_normal.dot(to_light) > 0.0;
+                let sent = || job.world.shader(point).light(point, finish, to_light);
+                weight = if faces { path.weight * light.color * sent() } else { Vec3::ZERO };
+            }
+            if weight == Vec3::ZERO {
                 continue;
             }
-            let mirrored = mirror(*dir, surface.normal);
-            // A bent normal may send the ray into the surface, where there is nothing to see.
-            let leaves = mirrored.dot(surface.true_normal) > 0.0;
-            let mirrored = if leaves { mirrored } else { mirror(*dir, surface.true_normal) };
-            rays.push(Ray::new(surface.leave, mirrored));
-            self.paths.push(Path { pixel: path.pixel, weight });
+            if light.casts_shadows {
+                let ray = Ray::new(surface.leave, to_light);
+                self.shadows.push(Ray { tmax: lit.distance(i), ..ray });
+                self.waiting.push(Path { pixel: path.pixel, weight });
+            } else {
+                colors[path.pixel] += weight;
+            }
+        }
+    }
+
+    /// Makes the rays of the next round: those that surfaces send on.
+    fn send(&mut self) {
+        self.batches.iter_mut().for_each(Batch::clear);
+        for Met { path, surface, finish } in &self.met {
+            if finish.mirror == Vec3::ZERO && finish.transmission == Vec3::ZERO {
+                continue;
+            }
+            let sent = bounce(surface, finish, surface.point.dir);
+            for (batch, sent) in self.batches.iter_mut().zip(sent) {
+                let weight = path.weight * sent.weight;
+                if weight.max_element() >= LEAST_WEIGHT {
+                    batch.rays.push(Ray::new(sent.origin, sent.dir));
+                    batch.paths.push(Path { pixel: path.pixel, weight });
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn lit_in_lanes<S: simd4::Simd>(s: S, points: &Points, light: &PointLight, lit: &mut Lit) {
+    shade::light::<S::f32s>(s, points, light, lit);
+}
+
+/// Collects the surfaces that rays met; what gives off light and what is behind all is added at once.
+fn meet(
+    met: &mut Vec<Met>,
+    job: &TileJob<'_>,
+    rays: &Rays,
+    hits: &Hits,
+    path: impl Fn(usize) -> Path,
+    colors: &mut [Vec3],
+) {
+    for i in 0..rays.len() {
+        let path = path(i);
+        match hits.get(i) {
+            Some(hit) => {
+                let surface = Surface::at(job.world, &rays.get(i), &hit);
+                let finish = job.world.finish(&surface.point);
+                colors[path.pixel] += path.weight * finish.emission;
+                met.push(Met { path, surface, finish });
+            }
+            None => colors[path.pixel] += path.weight * job.job.background,
         }
     }
 }

@@ -53,8 +53,8 @@ pub fn diffuse(world: &World, rays: &Batches, exec: Exec) -> Batches {
         hits.map(|(ray, hit)| {
             let surface = Surface::at(world, &ray, &hit);
             // A point of the ball that touches the surface there.
-            let dir = surface.true_normal + random.on_sphere();
-            Ray::new(surface.leave, dir.normalize_or(surface.true_normal))
+            let dir = surface.point.true_normal + random.on_sphere();
+            Ray::new(surface.leave, dir.normalize_or(surface.point.true_normal))
         })
         .collect()
     };

@@ -19,7 +19,7 @@ pub fn terrain(triangles: usize) -> Scene {
         for x in 0..n {
             let a = z * (n + 1) + x;
             let [b, c, d] = [a + 1, a + n + 1, a + n + 2];
-            let of = |position| Triangle { position, normal: None, material: 0 };
+            let of = |position| Triangle { position, normal: None, uv: None, material: 0 };
             mesh.triangles.extend([of([a, c, b]), of([b, c, d])]);
         }
     }

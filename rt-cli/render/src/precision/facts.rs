@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn facts_are_those_of_the_scene() {
         let mut scene = Scene::default();
-        let triangle = |position| Triangle { position, normal: None, material: 0 };
+        let triangle = |position| Triangle { position, normal: None, uv: None, material: 0 };
         scene.mesh.positions = vec![
             Vec3::ZERO,
             Vec3::new(8.0, 0.0, 0.0),

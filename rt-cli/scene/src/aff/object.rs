@@ -219,6 +219,7 @@ impl Reader<'_, '_> {
             self.scene.mesh.triangles.push(Triangle {
                 position: corners.map(|index| (position + index) as u32),
                 normal: of_normals.map(|corners| corners.map(|index| (normal + index) as u32)),
+                uv: None,
                 material,
             });
         }
@@ -286,6 +287,7 @@ impl Reader<'_, '_> {
         mesh.triangles.extend(triangles.map(|corners| Triangle {
             position: corners.map(|corner| first as u32 + corner),
             normal: normals.then(|| corners.map(|corner| first_normal as u32 + corner)),
+            uv: None,
             material,
         }));
     }

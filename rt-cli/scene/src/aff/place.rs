@@ -147,6 +147,7 @@ fn stretch(scene: &mut Scene, round: Scene, to_world: DAffine3) -> Result<(), Er
         let moved = Triangle {
             position: triangle.position.map(|i| position + i),
             normal: triangle.normal.map(|n| n.map(|i| normal + i)),
+            uv: triangle.uv,
             material: triangle.material,
         };
         if mirrors { turned_over(&moved) } else { moved }
@@ -160,6 +161,7 @@ fn turned_over(triangle: &Triangle) -> Triangle {
     Triangle {
         position: swap(triangle.position),
         normal: triangle.normal.map(swap),
+        uv: triangle.uv.map(swap),
         material: triangle.material,
     }
 }

@@ -245,6 +245,7 @@ impl<'a> Reader<'a> {
         mesh.triangles.extend(self.triangulator.polygon(corners).iter().map(|corners| Triangle {
             position: corners.map(|corner| first + corner),
             normal: patch.then(|| corners.map(|corner| first_normal + corner)),
+            uv: None,
             material,
         }));
         Ok(())

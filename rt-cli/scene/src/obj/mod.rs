@@ -2,9 +2,10 @@
 //!
 //! The crate `tobj` parses the numbers and numbers the vertices afresh, in the order of their use;
 //! before it, a reader of our own checks every statement and says where it is wrong. Polygons are
-//! triangulated whatever their shape. Faces of a smoothing group that state no normals get some. Lines, points, free-form surfaces and textures are counted
-//! and left out. A vertex's weight or colour is ignored.
+//! triangulated whatever their shape. Faces of a smoothing group that state no normals get some. Lines,
+//! points, free-form surfaces and textures but those of diffuse colour are counted and left out. A vertex's weight or colour is ignored.
 
+mod map;
 mod mtl;
 mod reader;
 mod smooth;
@@ -13,13 +14,14 @@ mod write;
 use std::collections::HashMap;
 use std::path::Path;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use tobj::{LoadError, LoadOptions};
 
 use crate::diag::{Diagnostic, Error, MAX_DIAGNOSTICS};
 use crate::model::{Material, Mesh, Scene, Skipped, Triangle};
 use crate::text::{Source, decode, read_file};
 use crate::triangulate::Triangulator;
+use map::Textures;
 use mtl::Libraries;
 use reader::{Outline, Reader};
 use smooth::Smoothing;
@@ -27,7 +29,7 @@ use smooth::Smoothing;
 pub use mtl::Loader;
 pub use write::{write, write_library};
 
-/// Reads an OBJ file, and its material libraries from the same folder.
+/// Reads an OBJ file, and its material libraries and textures from the same folder.
 pub fn read(path: &Path) -> Result<Scene, Error> {
     let bytes = read_file(path).map_err(|source| Error::Io { path: path.to_owned(), source })?;
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -37,7 +39,8 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 }
 
 /// Reads an OBJ text. `name` is what messages call it, `library` gives material libraries by the
-/// names that the text states; a library that cannot be read costs no more than a warning.
+/// names that the text states, and textures by those that libraries state; one that cannot be read
+/// costs no more than a warning.
 ///
 /// Vertices that no face uses are left out of the scene.
 pub fn parse(bytes: &[u8], name: &str, library: &mut Loader<'_>) -> Result<Scene, Error> {
@@ -78,13 +81,18 @@ fn use_materials(
     scene.facts.warnings.append(&mut libraries.warnings);
     scene.facts.missing.append(&mut libraries.missing);
 
+    let mut textures = Textures::default();
     let mut indices: HashMap<Option<u32>, u32> = HashMap::new();
     let mut default = None;
     let mut unknown = 0;
     let mut index_of = |stated: Option<u32>| {
         let name = stated.map(|index| outline.names[index as usize]);
-        if let Some(material) = name.and_then(|name| libraries.get(&decode(name.text))) {
-            return push(&mut scene.materials, material.clone());
+        if let Some((material, map)) = name.and_then(|name| libraries.get(&decode(name.text))) {
+            let texture = map.as_ref().and_then(|map| {
+                textures.open(map, &libraries.source(map)?, library, &mut scene.facts)
+            });
+            let material = Material { diffuse_map: texture, ..material.clone() };
+            return push(&mut scene.materials, material);
         }
         if let Some(name) = name {
             unknown += 1;
@@ -98,6 +106,8 @@ fn use_materials(
     let runs = outline.runs.iter().map(|run| run.material);
     let indices =
         runs.map(|stated| *indices.entry(stated).or_insert_with(|| index_of(stated))).collect();
+    textures.finish(source.name, &mut scene.facts);
+    scene.textures = textures.textures;
     if unknown > MAX_DIAGNOSTICS {
         let more = unknown - MAX_DIAGNOSTICS;
         scene.facts.warnings.push(format!("{}: {more} more unknown materials", source.name));
@@ -117,6 +127,10 @@ fn build_mesh(scene: &mut Scene, mesh: &tobj::Mesh, outline: &Outline<'_>, mater
     if outline.runs.iter().any(|run| run.normals) {
         scene.mesh.normals = vectors(&mesh.normals);
     }
+    if outline.runs.iter().any(|run| run.uvs) {
+        let uvs = mesh.texcoords.as_chunks().0.iter();
+        scene.mesh.uvs = uvs.map(|&uv| Vec2::from_array(uv)).collect();
+    }
     let mut smoothing = Smoothing::default();
     let (positions, stated_normals) = (&scene.mesh.positions, scene.mesh.normals.len());
     let triangles = &mut scene.mesh.triangles;
@@ -135,6 +149,7 @@ fn build_mesh(scene: &mut Scene, mesh: &tobj::Mesh, outline: &Outline<'_>, mater
         let range = first..first + arity;
         first += arity;
         let normals = run.normals.then(|| &mesh.normal_indices[range.clone()]);
+        let uvs = run.uvs.then(|| &mesh.texcoord_indices[range.clone()]);
         let indices = &mesh.indices[range];
         corners.clear();
         corners.extend(indices.iter().map(|&index| positions[index as usize]));
@@ -143,6 +158,7 @@ fn build_mesh(scene: &mut Scene, mesh: &tobj::Mesh, outline: &Outline<'_>, mater
         triangles.extend(triangulator.polygon(&corners).iter().map(|&triangle| Triangle {
             position: pick(indices, triangle),
             normal: normals.map(|normals| pick(normals, triangle)),
+            uv: uvs.map(|uvs| pick(uvs, triangle)),
             material,
         }));
         if let Some(group) = run.smoothing.filter(|_| normals.is_none()) {

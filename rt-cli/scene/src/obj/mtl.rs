@@ -5,6 +5,7 @@ use std::io;
 
 use glam::Vec3;
 
+use super::map::Map;
 use crate::diag::{MAX_DIAGNOSTICS, plural, reason};
 use crate::model::Material;
 use crate::text::{Lexer, Source, Word, decode};
@@ -12,22 +13,32 @@ use crate::text::{Lexer, Source, Word, decode};
 /// No more names than this are tried for one file.
 const MAX_LIBRARIES: usize = 64;
 
-/// Gives the bytes of a material library by the name that the OBJ file states.
+/// Gives the bytes of a material library by the name that the OBJ file states, or of a texture by the
+/// name that a library states.
 pub type Loader<'a> = dyn FnMut(&str) -> io::Result<Vec<u8>> + 'a;
 
 /// All materials that a file's libraries define, and what was wrong with them.
 #[derive(Default)]
 pub(super) struct Libraries {
-    materials: HashMap<String, Material>,
+    materials: HashMap<String, (Material, Option<Map>)>,
     tried: HashSet<String>,
+    /// Name and bytes of each file.
+    files: Vec<(String, Vec<u8>)>,
     pub(super) warnings: Vec<String>,
     /// Those of them that are of a file that cannot be read.
     pub(super) missing: Vec<String>,
 }
 
 impl Libraries {
-    pub(super) fn get(&self, name: &str) -> Option<&Material> {
+    /// A material, and what texture is stated of it.
+    pub(super) fn get(&self, name: &str) -> Option<&(Material, Option<Map>)> {
         self.materials.get(name)
+    }
+
+    /// The library that states a texture.
+    pub(super) fn source(&self, map: &Map) -> Option<Source<'_>> {
+        let (name, bytes) = &self.files[map.library];
+        Source::new(name, bytes, "MTL").ok()
     }
 
     /// Opens what one `mtllib` statement names: one file, or else several.
@@ -66,18 +77,20 @@ impl Libraries {
             Ok(source) => self.read(&source),
             Err(error) => self.warnings.push(error.to_string()),
         }
+        self.files.push((name.to_owned(), bytes));
         Ok(())
     }
 
     fn read(&mut self, source: &Source<'_>) {
-        let mut cleaner = Cleaner::new(*source);
+        let mut cleaner = Cleaner::new(*source, self.files.len());
         cleaner.run();
-        let Cleaner { clean, names, mut warnings, .. } = cleaner;
+        let Cleaner { clean, stated, mut warnings, .. } = cleaner;
         match tobj::load_mtl_buf(&mut clean.as_slice()) {
             Ok((materials, _)) => {
-                for (name, material) in names.iter().zip(materials) {
-                    let name = decode(name.text).into_owned();
-                    self.materials.insert(name.clone(), convert(name, &material));
+                for (stated, material) in stated.iter().zip(materials) {
+                    let name = decode(stated.name.text).into_owned();
+                    let material = convert(name.clone(), stated, &material);
+                    self.materials.insert(name, (material, stated.map));
                 }
             }
             Err(error) => warnings.push(format!("{}: {error}", source.name)),
@@ -110,22 +123,48 @@ fn split_names(line: &str) -> Vec<String> {
     names
 }
 
-fn convert(name: String, material: &tobj::Material) -> Material {
+/// What is stated of a material is what its illumination model asks for. Light goes through it as
+/// far as it is dissolved (`d`); where the model is refraction, 6 or 7, and nothing is dissolved, as
+/// far as highlights leave of it. It is filtered by `Tf`, and bent by `Ni` but in the models that
+/// know no glass.
+fn convert(name: String, stated: &Stated<'_>, material: &tobj::Material) -> Material {
     let default = Material::default();
     let color = |value: Option<[f32; 3]>, otherwise| value.map_or(otherwise, Vec3::from);
     let specular = color(material.specular, default.specular);
-    // The illumination models of MTL that trace reflections.
-    let reflects = matches!(material.illumination_model, Some(3 | 5..=9));
+    // A texture is a colour by itself.
+    let diffuse = if stated.map.is_some() { Vec3::ONE } else { default.diffuse };
+    let model = material.illumination_model;
+    let reflects = matches!(model, Some(3..=9));
+    let refracts = matches!(model, Some(6 | 7));
+    let opacity = material.dissolve.unwrap_or(1.0).min(1.0);
+    let through = match refracts && opacity == 1.0 {
+        true => (Vec3::ONE - specular).max(Vec3::ZERO),
+        false => Vec3::splat(1.0 - opacity),
+    };
+    let bends = matches!(model, None | Some(4..=9));
+    let ior = material.optical_density.filter(|&ior| bends && ior > 0.0);
     Material {
         name,
-        diffuse: color(material.diffuse, default.diffuse),
+        diffuse: color(material.diffuse, diffuse) * opacity,
+        diffuse_map: None,
         specular,
         shininess: material.shininess.unwrap_or(default.shininess),
         mirror: if reflects { specular } else { default.mirror },
-        transmission: Vec3::splat(1.0 - material.dissolve.unwrap_or(1.0).min(1.0)),
-        ior: material.optical_density.filter(|&ior| ior > 0.0).unwrap_or(default.ior),
+        transmission: through * stated.filter.unwrap_or(Vec3::ONE),
+        ior: ior.unwrap_or(default.ior),
+        fresnel: matches!(model, Some(5 | 7)),
         emission: color(material.emissive, default.emission),
     }
+}
+
+/// What of a material does not go through tobj.
+struct Stated<'a> {
+    name: Word<'a>,
+    has_dissolve: bool,
+    /// `Tf`.
+    filter: Option<Vec3>,
+    /// `map_Kd`.
+    map: Option<Map>,
 }
 
 /// Checks an MTL text and writes what is good of it, materials named by their number.
@@ -133,23 +172,23 @@ struct Cleaner<'a> {
     source: Source<'a>,
     lexer: Lexer<'a>,
     clean: Vec<u8>,
-    names: Vec<Word<'a>>,
-    /// Whether the last of them states `d`.
-    has_dissolve: bool,
-    /// The first statement of a texture, and all that it and others name.
+    stated: Vec<Stated<'a>>,
+    library: usize,
+    /// The first statement of a texture that is not drawn, and all that it and others name.
     texture: Option<Word<'a>>,
     textures: HashSet<&'a [u8]>,
     warnings: Vec<String>,
 }
 
 impl<'a> Cleaner<'a> {
-    fn new(source: Source<'a>) -> Self {
+    /// `library` is the number of the file.
+    fn new(source: Source<'a>, library: usize) -> Self {
         Cleaner {
+            library,
             source,
             lexer: Lexer::new(source.text),
             clean: Vec::new(),
-            names: Vec::new(),
-            has_dissolve: false,
+            stated: Vec::new(),
             texture: None,
             textures: HashSet::new(),
             warnings: Vec::new(),
@@ -181,7 +220,7 @@ impl<'a> Cleaner<'a> {
                 count => format!(" and {}", plural(count as u64, "other")),
             };
             let texture = first.shown();
-            let message = format!("{texture}{others}: textures are not drawn yet");
+            let message = format!("{texture}{others}: no textures but map_Kd are drawn");
             self.warnings.push(self.source.warning(first.at, message));
         }
     }
@@ -193,17 +232,18 @@ impl<'a> Cleaner<'a> {
                 if name.text.is_empty() {
                     return Err((name.at, "expected a name after 'newmtl'".to_owned()));
                 }
-                self.clean.extend(format!("newmtl {}\n", self.names.len()).bytes());
-                self.names.push(name);
-                self.has_dissolve = false;
+                self.clean.extend(format!("newmtl {}\n", self.stated.len()).bytes());
+                self.stated.push(Stated { name, has_dissolve: false, filter: None, map: None });
                 Ok(())
             }
-            _ if self.names.is_empty() => Ok(()),
+            _ if self.stated.is_empty() => Ok(()),
             b"Kd" | b"Ks" | b"Ke" => self.values(keyword, 3),
             b"Ns" | b"Ni" => self.values(keyword, 1),
+            b"Tf" => self.filter(),
             b"d" => self.dissolve(keyword),
             b"Tr" => self.transparency(),
             b"illum" => self.illumination(),
+            b"map_Kd" | b"map_kd" => self.color_map(),
             map if map.starts_with(b"map_") || [&b"bump"[..], b"disp", b"refl"].contains(&map) => {
                 self.texture(keyword);
                 Ok(())
@@ -212,8 +252,37 @@ impl<'a> Cleaner<'a> {
         }
     }
 
+    /// What glass does to light. In other forms of the statement there are no numbers to be had.
+    fn filter(&mut self) -> Result<(), (usize, String)> {
+        let before = self.lexer.clone();
+        if self.lexer.word().is_some_and(|word| matches!(word.text, b"spectral" | b"xyz")) {
+            return Ok(());
+        }
+        self.lexer = before;
+        let words = self.numbers("'Tf'", 3)?;
+        let mut filter = Vec3::ZERO;
+        for (channel, word) in words.iter().enumerate() {
+            filter[channel] = word.number().map_err(|message| (word.at, message))?;
+        }
+        if let Some(material) = self.stated.last_mut() {
+            material.filter = Some(filter);
+        }
+        Ok(())
+    }
+
     /// One number may stand for a grey.
     fn values(&mut self, keyword: Word<'a>, wanted: usize) -> Result<(), (usize, String)> {
+        let words = self.numbers(&keyword.quoted(), wanted)?;
+        self.clean.extend_from_slice(keyword.text);
+        for word in words {
+            self.clean.push(b' ');
+            self.clean.extend_from_slice(word.text);
+        }
+        self.clean.push(b'\n');
+        Ok(())
+    }
+
+    fn numbers(&mut self, keyword: &str, wanted: usize) -> Result<Vec<Word<'a>>, (usize, String)> {
         let mut words = Vec::new();
         while let Some(word) = self.lexer.word().filter(|_| words.len() < wanted) {
             let value = word.number().map_err(|message| (word.at, message))?;
@@ -221,23 +290,17 @@ impl<'a> Cleaner<'a> {
                 let message = format!("expected a number of at least 0, found {}", word.quoted());
                 return Err((word.at, message));
             }
-            words.push(word.text);
+            words.push(word);
         }
         if words.len() == 1 {
             words.resize(wanted, words[0]);
         } else if words.len() < wanted {
-            let (s, name) = (if wanted == 1 { "" } else { "s" }, keyword.quoted());
+            let s = if wanted == 1 { "" } else { "s" };
             let message =
-                format!("expected {wanted} number{s} after {name}, found {}", words.len());
+                format!("expected {wanted} number{s} after {keyword}, found {}", words.len());
             return Err((self.lexer.at(), message));
         }
-        self.clean.extend_from_slice(keyword.text);
-        for word in words {
-            self.clean.push(b' ');
-            self.clean.extend_from_slice(word);
-        }
-        self.clean.push(b'\n');
-        Ok(())
+        Ok(words)
     }
 
     /// Perhaps only at the rim, which is no different here.
@@ -246,7 +309,9 @@ impl<'a> Cleaner<'a> {
         if self.lexer.word().is_none_or(|word| word.text != b"-halo") {
             self.lexer = before;
         }
-        self.has_dissolve = true;
+        if let Some(material) = self.stated.last_mut() {
+            material.has_dissolve = true;
+        }
         self.values(keyword, 1)
     }
 
@@ -257,7 +322,7 @@ impl<'a> Cleaner<'a> {
             return Err((self.lexer.at(), message));
         };
         let value = word.number().map_err(|message| (word.at, message))?;
-        if !self.has_dissolve {
+        if !self.stated.last().is_some_and(|material| material.has_dissolve) {
             self.clean.extend(format!("d {}\n", (1.0 - value).clamp(0.0, 1.0)).bytes());
         }
         Ok(())
@@ -271,6 +336,14 @@ impl<'a> Cleaner<'a> {
             return Err((word.at, message));
         };
         self.clean.extend(format!("illum {model}\n").bytes());
+        Ok(())
+    }
+
+    fn color_map(&mut self) -> Result<(), (usize, String)> {
+        let map = Map::read(&mut self.lexer, self.library)?;
+        if let Some(material) = self.stated.last_mut() {
+            material.map = Some(map);
+        }
         Ok(())
     }
 

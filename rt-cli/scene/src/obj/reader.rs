@@ -1,8 +1,7 @@
 //! Checks an OBJ text statement by statement and hands on what [`tobj`] understands.
 //!
-//! What comes out is ASCII and holds nothing but good `v`, `vn` and `f` lines. Names, texture
-//! coordinates and everything else stay here: so one mesh comes of it, whose vertices the
-//! materials share.
+//! What comes out is ASCII and holds nothing but good `v`, `vt`, `vn` and `f` lines. Names and
+//! everything else stay here: so one mesh comes of it, whose vertices the materials share.
 
 use std::collections::HashMap;
 use std::io::{self, BufRead, Read};
@@ -71,7 +70,7 @@ const SILENT: [&str; 26] = [
 ];
 
 /// Faces from `first` up to the next run have this material, are in this smoothing group, and do or
-/// don't have normals.
+/// don't have normals and texture coordinates.
 #[derive(Clone, Copy)]
 pub(super) struct Run {
     pub(super) first: usize,
@@ -79,6 +78,7 @@ pub(super) struct Run {
     pub(super) material: Option<u32>,
     pub(super) smoothing: Option<u32>,
     pub(super) normals: bool,
+    pub(super) uvs: bool,
 }
 
 /// What the clean text does not say.
@@ -218,7 +218,6 @@ impl<'a> Reader<'a> {
         if self.outline.counts[list] > u32::MAX as usize {
             return Err(self.error(self.lexer.at(), format!("more than {} {many}", u32::MAX)));
         }
-        let before = self.clean.len();
         self.clean.extend_from_slice(keyword.as_bytes());
         for found in 0..wanted {
             let Some(word) = self.lexer.word() else {
@@ -231,18 +230,26 @@ impl<'a> Reader<'a> {
             self.hand_on(word);
         }
         if list == TEXTURE {
-            self.clean.truncate(before);
-        } else {
-            self.clean.push(b'\n');
+            match self.lexer.word() {
+                Some(word) => {
+                    word.number().map_err(|message| self.error(word.at, message))?;
+                    self.hand_on(word);
+                }
+                // The picture is a line.
+                None => self.clean.extend_from_slice(b" 0"),
+            }
         }
+        self.clean.push(b'\n');
         Ok(())
     }
 
     fn face(&mut self) -> Result<(), Diagnostic> {
         self.clean.push(b'f');
-        let (mut corners, mut normals) = (0, true);
+        let (mut corners, mut normals, mut uvs) = (0, true, true);
         while let Some(word) = self.lexer.word() {
-            normals &= self.corner(word)?;
+            let stated = self.corner(word)?;
+            normals &= stated[NORMAL].is_some();
+            uvs &= stated[TEXTURE].is_some();
             self.hand_on(word);
             corners += 1;
         }
@@ -252,9 +259,10 @@ impl<'a> Reader<'a> {
         }
         self.clean.push(b'\n');
         let (material, smoothing) = (self.material, self.smoothing);
-        let run = Run { first: self.outline.faces, material, smoothing, normals };
+        let run = Run { first: self.outline.faces, material, smoothing, normals, uvs };
         let differs = |last: &Run| {
-            (last.material, last.smoothing, last.normals) != (material, smoothing, normals)
+            let same = last.material == material && last.smoothing == smoothing;
+            !(same && last.normals == normals && last.uvs == uvs)
         };
         if self.outline.runs.last().is_none_or(differs) {
             self.outline.runs.push(run);
@@ -263,8 +271,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Checks `v`, `v/t`, `v//n` or `v/t/n`; says whether there is a normal.
-    fn corner(&mut self, word: Word<'a>) -> Result<bool, Diagnostic> {
+    /// Checks `v`, `v/t`, `v//n` or `v/t/n`; says what is stated.
+    fn corner(&mut self, word: Word<'a>) -> Result<[Option<i64>; 3], Diagnostic> {
         let malformed = || {
             let example = "a corner such as 1, 1/2, 1//3 or 1/2/3";
             self.error(word.at, format!("expected {example}, found {}", word.quoted()))
@@ -293,7 +301,7 @@ impl<'a> Reader<'a> {
                 self.check_index(list, index).map_err(|message| self.error(word.at, message))?;
             }
         }
-        Ok(stated[NORMAL].is_some())
+        Ok(stated)
     }
 
     fn check_index(&mut self, list: usize, index: i64) -> Result<(), String> {

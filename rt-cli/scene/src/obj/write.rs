@@ -67,21 +67,32 @@ fn write_materials(materials: &[Material], out: &mut impl Write) -> io::Result<(
     for (material, name) in materials.iter().zip(unique_names(materials)) {
         let reflects = material.mirror != Vec3::ZERO;
         writeln!(out, "newmtl {name}")?;
+        let opacity = 1.0 - (material.transmission.element_sum() / 3.0).min(1.0);
+        let diffuse = if opacity > 0.0 { material.diffuse / opacity } else { Vec3::ZERO };
         for (keyword, Vec3 { x, y, z }) in [
-            ("Kd", material.diffuse),
+            ("Kd", diffuse),
             ("Ks", if reflects { material.mirror } else { material.specular }),
             ("Ke", material.emission),
         ] {
             writeln!(out, "{keyword} {x} {y} {z}")?;
         }
         if material.transmission != Vec3::ZERO {
-            let clear = material.transmission.element_sum() / 3.0;
-            writeln!(out, "d {}", 1.0 - clear.min(1.0))?;
+            writeln!(out, "d {opacity}")?;
         }
         if material.ior != 1.0 {
             writeln!(out, "Ni {}", material.ior)?;
         }
-        writeln!(out, "Ns {}\nillum {}", material.shininess, if reflects { 3 } else { 2 })?;
+        writeln!(out, "Ns {}", material.shininess)?;
+        let model = match (material.transmission != Vec3::ZERO, reflects, material.fresnel) {
+            (true, _, true) => 7,
+            (true, true, false) => 6,
+            // No model lets light through glass that reflects nothing.
+            (true, false, false) => continue,
+            (false, true, true) => 5,
+            (false, true, false) => 3,
+            (false, false, _) => 2,
+        };
+        writeln!(out, "illum {model}")?;
     }
     Ok(())
 }

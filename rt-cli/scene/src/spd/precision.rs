@@ -40,7 +40,7 @@ fn of_mesh(mesh: Mesh) -> Scene {
 }
 
 fn triangle(position: [u32; 3]) -> Triangle {
-    Triangle { position, normal: None, material: 0 }
+    Triangle { position, normal: None, uv: None, material: 0 }
 }
 
 /// A cube blown up to a ball, each side a grid of so many squares, with bumps, and of a

@@ -79,6 +79,7 @@ impl Stage {
         triangles.extend(cut.iter().map(|corners| Triangle {
             position: corners.map(|corner| first as u32 + corner),
             normal: None,
+            uv: None,
             material,
         }));
     }
@@ -86,12 +87,12 @@ impl Stage {
     /// A triangle whose corners have normals.
     pub(super) fn patch(&mut self, corners: [(DVec3, DVec3); 3]) {
         let material = self.material("patch");
-        let Mesh { positions, normals, triangles } = &mut self.scene.mesh;
+        let Mesh { positions, normals, triangles, .. } = &mut self.scene.mesh;
         let [position, normal] =
             [positions.len(), normals.len()].map(|first| [0, 1, 2].map(|nth| first as u32 + nth));
         positions.extend(corners.map(|(position, _)| position.as_vec3()));
         normals.extend(corners.map(|(_, normal)| normal.as_vec3()));
-        triangles.push(Triangle { position, normal: Some(normal), material });
+        triangles.push(Triangle { position, normal: Some(normal), uv: None, material });
     }
 
     /// A horizontal square about the z axis.

@@ -12,3 +12,4 @@ mod samples;
 mod spd;
 mod support;
 mod tessellate;
+mod textures;

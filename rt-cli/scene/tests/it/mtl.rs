@@ -29,23 +29,25 @@ fn everything_that_is_understood() {
                 Ke 17 12 4\nNs 10.5\nNi 1.5\nd 0.5\nillum 5\n";
     let expected = Material {
         name: "m".into(),
-        diffuse: Vec3::new(0.1, 0.2, 0.3),
+        // Half of it is there.
+        diffuse: Vec3::new(0.05, 0.1, 0.15),
+        diffuse_map: None,
         specular: Vec3::new(0.5, 0.6, 0.7),
         shininess: 10.5,
         mirror: Vec3::new(0.5, 0.6, 0.7),
         transmission: Vec3::splat(0.5),
         ior: 1.5,
+        fresnel: true,
         emission: Vec3::new(17.0, 12.0, 4.0),
     };
-    let warning = "1 transparent material: drawn opaque".to_owned();
-    assert_eq!(material(format!("\u{FEFF}{text}")), (expected, vec![warning]));
+    assert_eq!(material(format!("\u{FEFF}{text}")), (expected, vec![]));
 }
 
 #[test]
 fn which_models_of_illumination_mirror() {
     for illum in 0..=10 {
         let (material, _) = material(format!("newmtl m\nKs 1 1 1\nillum {illum}"));
-        let mirrors = [3, 5, 6, 7, 8, 9].contains(&illum);
+        let mirrors = [3, 4, 5, 6, 7, 8, 9].contains(&illum);
         assert_eq!(material.mirror, Vec3::splat(if mirrors { 1.0 } else { 0.0 }), "{illum}");
     }
 }
@@ -68,6 +70,34 @@ fn what_is_transparent() {
         assert_eq!(material.transmission, Vec3::splat(transmission), "{lines}");
     }
     assert_eq!(material("newmtl m\nNi 0").0.ior, 1.0);
+}
+
+#[test]
+fn what_refracts_and_what_depends_on_the_angle() {
+    for (lines, transmission, ior, fresnel) in [
+        // Refraction without dissolving: what highlights leave.
+        ("Ks .25 .25 .25\nNi 1.5\nillum 6", Vec3::splat(0.75), 1.5, false),
+        ("Ks .25 .25 .25\nNi 1.5\nillum 7", Vec3::splat(0.75), 1.5, true),
+        ("Tf 1 .5 .25\nNi 1.5\nillum 7", Vec3::new(1.0, 0.5, 0.25), 1.5, true),
+        ("Tf .5\nd .5\nNi 1.5\nillum 7", Vec3::splat(0.25), 1.5, true),
+        ("Tf spectral glass.rfl\nd .5", Vec3::splat(0.5), 1.0, false),
+        ("d .5\nNi 1.5\nillum 9", Vec3::splat(0.5), 1.5, false),
+        ("d .5\nNi 1.5", Vec3::splat(0.5), 1.5, false),
+        // Paper, not glass.
+        ("d .5\nNi 1.5\nillum 2", Vec3::splat(0.5), 1.0, false),
+        ("Ks 1 1 1\nillum 5", Vec3::ZERO, 1.0, true),
+    ] {
+        let (material, warnings) = material(format!("newmtl m\n{lines}"));
+        let got = (material.transmission, material.ior, material.fresnel);
+        assert_eq!(got, (transmission, ior, fresnel), "{lines}");
+        assert_eq!(warnings, Vec::<String>::new(), "{lines}");
+    }
+    let (_, warnings) = material("newmtl m\nTf 1 x 1\nTf 1 2");
+    let expected = [
+        "m.mtl:2:6: expected a number, found 'x'",
+        "m.mtl:3:7: expected 3 numbers after 'Tf', found 2",
+    ];
+    assert_eq!(warnings, expected);
 }
 
 #[test]
@@ -117,13 +147,13 @@ fn libraries_that_are_not_text() {
 }
 
 #[test]
-fn textures_are_told_once() {
-    let (_, warnings) = material("newmtl m\nmap_Kd a b.png\nmap_Kd a b.png\n");
-    assert_eq!(warnings, ["m.mtl:2:1: map_Kd a b.png: textures are not drawn yet"]);
+fn textures_that_are_not_drawn_are_told_once() {
+    let (_, warnings) = material("newmtl m\nmap_Ks a b.png\nmap_Ks a b.png\n");
+    assert_eq!(warnings, ["m.mtl:2:1: map_Ks a b.png: no textures but map_Kd are drawn"]);
     let mut text = String::from("newmtl m\n  bump -bm 1 n.png # bumps\n");
-    text.extend((0..30).map(|n| format!("map_Kd {n}.png\nKd {n} 0 0\n")));
+    text.extend((0..30).map(|n| format!("map_Ks {n}.png\nKd {n} 0 0\n")));
     let (material, warnings) = material(text);
-    let expected = "m.mtl:2:3: bump -bm 1 n.png and 30 others: textures are not drawn yet";
+    let expected = "m.mtl:2:3: bump -bm 1 n.png and 30 others: no textures but map_Kd are drawn";
     assert_eq!(warnings, [expected]);
     assert_eq!(material.diffuse.x, 29.0, "the library is read to its end");
 }

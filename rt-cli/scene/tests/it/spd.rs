@@ -46,11 +46,8 @@ fn scenes_come_in_sizes() {
             assert_eq!(scene.name, format!("spd:{}:{size}", procedure.name));
             let stated: Vec<_> = scene.facts.stated.into_iter().collect();
             assert_eq!(stated, counts(procedure.name, size), "{}", scene.name);
-            let warned = match &*scene.name {
-                // One of so few patches is not for use.
-                "spd:teapot:1" => true,
-                name => name.starts_with("spd:gears") || name.starts_with("spd:mount"),
-            };
+            // One of so few patches is not for use.
+            let warned = scene.name == "spd:teapot:1";
             assert_eq!(!scene.facts.warnings.is_empty(), warned, "{}", scene.name);
         }
         let scene = spd::generate(procedure.name, None).unwrap();

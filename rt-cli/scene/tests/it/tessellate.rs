@@ -31,7 +31,13 @@ fn scene(spheres: Vec<Sphere>, cones: Vec<Cone>) -> Scene {
     let mesh = Mesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
         normals: vec![Vec3::Z],
-        triangles: vec![Triangle { position: [0, 1, 2], normal: Some([0; 3]), material: 2 }],
+        uvs: Vec::new(),
+        triangles: vec![Triangle {
+            position: [0, 1, 2],
+            normal: Some([0; 3]),
+            uv: None,
+            material: 2,
+        }],
     };
     Scene { mesh, spheres, cones, ..Scene::default() }
 }
