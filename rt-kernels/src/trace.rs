@@ -6,7 +6,7 @@ use simd4::{Level, LevelError, Simd, SimdF32, dispatch, scalar};
 
 use crate::accelerator::Visitor;
 use crate::bvh::layout::SkipArray;
-use crate::packet::{Any, Closest, Frame, Hits, LARGE, Packet, Query, Rays};
+use crate::packet::{Either, Frame, Hits, LARGE, Packet, Query, Rays};
 use crate::tri::{Method, TriangleKernel, with_kernel};
 use crate::{Accelerator, Brute, Counters, Ray, Stats, single};
 
@@ -114,14 +114,16 @@ pub(crate) trait Traverse: Send + Sync {
 
 /// A [`Traverse`] is an [`Accelerator`] at every level and packet size.
 macro_rules! accelerator {
-    ($Type:ty, any: $any:ident) => {
+    ($Type:ty) => {
         impl Accelerator for $Type {
             fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats) {
-                closest(self, exec, rays, hits, stats);
+                trace(self, exec, rays, false, hits, stats);
             }
 
             fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats) {
-                $any(self, exec, rays, found, stats);
+                let mut hits = Hits::new();
+                trace(self, exec, rays, true, &mut hits, stats);
+                hits.found(found);
             }
 
             fn visit(&self, ray: &Ray, visitor: Visitor<'_>) {
@@ -142,72 +144,40 @@ macro_rules! accelerator {
     };
 }
 
-accelerator!(Brute, any: any_by_closest);
-accelerator!(SkipArray, any: any);
+accelerator!(Brute);
+accelerator!(SkipArray);
 
-pub(crate) fn closest<T: Traverse + Accelerator>(
+/// Finds the closest hit of each ray or, with `any`, whichever is found first.
+pub(crate) fn trace<T: Traverse + Accelerator>(
     traverse: &T,
     exec: Exec,
     rays: &Rays,
+    any: bool,
     hits: &mut Hits,
     stats: &mut impl Counters,
 ) {
     hits.resize(rays.len());
     let exec = traverse.exec(exec);
     with_kernel!(traverse.method(), K => {
-        run(exec, rays, &mut ClosestOf::<_, K>(traverse, hits, PhantomData), stats);
+        run(exec, rays, &mut Batch::<_, K> { traverse, any, hits, kernel: PhantomData }, stats);
     });
-}
-
-pub(crate) fn any<T: Traverse + Accelerator>(
-    traverse: &T,
-    exec: Exec,
-    rays: &Rays,
-    found: &mut Vec<bool>,
-    stats: &mut impl Counters,
-) {
-    found.clear();
-    found.resize(rays.len(), false);
-    let exec = traverse.exec(exec);
-    with_kernel!(traverse.method(), K => {
-        run(exec, rays, &mut AnyOf::<_, K>(traverse, found, PhantomData), stats);
-    });
-}
-
-/// Without code of its own, for whom speed does not matter.
-fn any_by_closest<T: Traverse + Accelerator>(
-    traverse: &T,
-    exec: Exec,
-    rays: &Rays,
-    found: &mut Vec<bool>,
-    stats: &mut impl Counters,
-) {
-    let mut hits = Hits::new();
-    closest(traverse, exec, rays, &mut hits, stats);
-    hits.found(found);
 }
 
 const fn any_packet<T: Traverse, K: TriangleKernel>() -> bool {
     T::ANY_PACKET && K::ANY_PACKET
 }
 
-/// What is done with each packet of a batch.
-trait Batch {
+/// What is done with each packet of a batch. Whether one hit is enough is decided at run time: that
+/// there is one loop and not two saves half the code.
+struct Batch<'a, T, K> {
+    traverse: &'a T,
+    any: bool,
+    hits: &'a mut Hits,
+    kernel: PhantomData<K>,
+}
+
+impl<T: Traverse, K: TriangleKernel> Batch<'_, T, K> {
     /// Whether there is code for packets of any size.
-    const ANY_PACKET: bool;
-
-    fn packet<V: SimdF32>(
-        &mut self,
-        s: V::Simd,
-        packet: &Packet<V>,
-        first: usize,
-        stats: &mut impl Counters,
-    );
-}
-
-struct ClosestOf<'a, T, K>(&'a T, &'a mut Hits, PhantomData<K>);
-
-impl<T: Traverse, K: TriangleKernel> Batch for ClosestOf<'_, T, K> {
     const ANY_PACKET: bool = any_packet::<T, K>();
 
     #[inline(always)]
@@ -218,28 +188,9 @@ impl<T: Traverse, K: TriangleKernel> Batch for ClosestOf<'_, T, K> {
         first: usize,
         stats: &mut impl Counters,
     ) {
-        let mut query = Closest::new(s, packet);
-        in_frame::<K, V, T, _>(self.0, s, packet, &mut query, stats);
-        query.store(self.1, first);
-    }
-}
-
-struct AnyOf<'a, T, K>(&'a T, &'a mut [bool], PhantomData<K>);
-
-impl<T: Traverse, K: TriangleKernel> Batch for AnyOf<'_, T, K> {
-    const ANY_PACKET: bool = any_packet::<T, K>();
-
-    #[inline(always)]
-    fn packet<V: SimdF32>(
-        &mut self,
-        s: V::Simd,
-        packet: &Packet<V>,
-        first: usize,
-        stats: &mut impl Counters,
-    ) {
-        let mut query = Any::new(s, packet);
-        in_frame::<K, V, T, _>(self.0, s, packet, &mut query, stats);
-        query.store(self.1, first);
+        let mut query = Either::new(s, packet, self.any);
+        in_frame::<K, V, T, _>(self.traverse, s, packet, &mut query, stats);
+        query.store(self.hits, first);
     }
 }
 
@@ -258,9 +209,16 @@ pub(crate) fn in_frame<K: TriangleKernel, V: SimdF32, T: Traverse, Q: Query<V>>(
 }
 
 /// Cuts a batch into packets, once the level and the packet size are known.
-fn run<B: Batch>(exec: Exec, rays: &Rays, batch: &mut B, stats: &mut impl Counters) {
+fn run<T: Traverse, K: TriangleKernel>(
+    exec: Exec,
+    rays: &Rays,
+    batch: &mut Batch<'_, T, K>,
+    stats: &mut impl Counters,
+) {
     match exec.packet {
-        PacketSize::Single => packets::<scalar::f32x1, _>(simd4::Scalar::new(), rays, batch, stats),
+        PacketSize::Single => {
+            packets::<scalar::f32x1, _, _, _>(simd4::Scalar::new(), rays, batch, stats)
+        }
         _ => match exec.lanes() {
             4 => dispatch!(exec.level, s => four(s, rays, batch, stats)),
             8 => dispatch!(exec.level, s => eight(s, rays, batch, stats)),
@@ -272,23 +230,38 @@ fn run<B: Batch>(exec: Exec, rays: &Rays, batch: &mut B, stats: &mut impl Counte
 // There is code only for what can come, and for no type twice.
 
 #[inline(always)]
-fn native<S: Simd>(s: S, rays: &Rays, batch: &mut impl Batch, stats: &mut impl Counters) {
+fn native<S: Simd, T: Traverse, K: TriangleKernel>(
+    s: S,
+    rays: &Rays,
+    batch: &mut Batch<'_, T, K>,
+    stats: &mut impl Counters,
+) {
     if const { S::LANES != 4 && S::LANES != 8 } {
-        packets::<S::f32s, _>(s, rays, batch, stats);
+        packets::<S::f32s, _, _, _>(s, rays, batch, stats);
     }
 }
 
 #[inline(always)]
-fn four<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut impl Counters) {
-    if const { B::ANY_PACKET || is_register::<S>(4) } {
-        packets::<S::f32x4, _>(s, rays, batch, stats);
+fn four<S: Simd, T: Traverse, K: TriangleKernel>(
+    s: S,
+    rays: &Rays,
+    batch: &mut Batch<'_, T, K>,
+    stats: &mut impl Counters,
+) {
+    if const { Batch::<T, K>::ANY_PACKET || is_register::<S>(4) } {
+        packets::<S::f32x4, _, _, _>(s, rays, batch, stats);
     }
 }
 
 #[inline(always)]
-fn eight<S: Simd, B: Batch>(s: S, rays: &Rays, batch: &mut B, stats: &mut impl Counters) {
-    if const { B::ANY_PACKET && !S::EMULATED || is_register::<S>(8) } {
-        packets::<S::f32x8, _>(s, rays, batch, stats);
+fn eight<S: Simd, T: Traverse, K: TriangleKernel>(
+    s: S,
+    rays: &Rays,
+    batch: &mut Batch<'_, T, K>,
+    stats: &mut impl Counters,
+) {
+    if const { Batch::<T, K>::ANY_PACKET && !S::EMULATED || is_register::<S>(8) } {
+        packets::<S::f32x8, _, _, _>(s, rays, batch, stats);
     }
 }
 
@@ -298,10 +271,10 @@ const fn is_register<S: Simd>(lanes: usize) -> bool {
 }
 
 #[inline(always)]
-fn packets<V: SimdF32, C: Counters>(
+fn packets<V: SimdF32, T: Traverse, K: TriangleKernel, C: Counters>(
     s: V::Simd,
     rays: &Rays,
-    batch: &mut impl Batch,
+    batch: &mut Batch<'_, T, K>,
     stats: &mut C,
 ) {
     let mut done = C::default();

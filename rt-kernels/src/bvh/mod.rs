@@ -124,7 +124,7 @@ impl Bvh {
     #[inline]
     pub fn closest_uncounted(&self, exec: Exec, rays: &Rays, hits: &mut Hits) {
         match &self.array {
-            Array::Skip(array) => trace::closest(array, exec, rays, hits, &mut NoStats),
+            Array::Skip(array) => trace::trace(array, exec, rays, false, hits, &mut NoStats),
             Array::Bvh4(array) => array.trace(exec, rays, false, hits, &mut NoStats),
             Array::Bvh8(array) => array.trace(exec, rays, false, hits, &mut NoStats),
         }
@@ -135,7 +135,7 @@ impl Bvh {
     pub fn any_uncounted(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>) {
         let mut hits = Hits::new();
         match &self.array {
-            Array::Skip(array) => return trace::any(array, exec, rays, found, &mut NoStats),
+            Array::Skip(array) => trace::trace(array, exec, rays, true, &mut hits, &mut NoStats),
             Array::Bvh4(array) => array.trace(exec, rays, true, &mut hits, &mut NoStats),
             Array::Bvh8(array) => array.trace(exec, rays, true, &mut hits, &mut NoStats),
         }

@@ -2,7 +2,8 @@
 //!
 //! A [`Packet`] holds as many rays as a register has lanes. A [`Frame`] says how it looks at the
 //! axes: [`Coherent`] if all rays agree, [`Mixed`] if not. A [`Query`] says what is asked of it:
-//! the [`Closest`] hit, or whether there is [`Any`]; or either, of a [`Single`] ray in all lanes.
+//! the [`Closest`] hit, or [either](Either) that or whether there is any, also of a [`Single`] ray in
+//! all lanes.
 
 mod axes;
 mod boxes;
@@ -18,7 +19,7 @@ pub use boxes::{Boxes, OwnBoxes};
 pub use buckets::Buckets;
 pub use frame::{Coherent, Frame, Mixed};
 pub use large::{Beam, Bounds, Chunk, Class, GroupQuery, LARGE, LargePacket, Reach};
-pub use query::{Any, Closest, Either, Query};
+pub use query::{Closest, Either, Query};
 pub use single::{Ask, Single};
 pub use stream::{Hits, Rays};
 

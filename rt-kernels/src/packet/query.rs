@@ -80,50 +80,8 @@ impl<V: SimdF32> Query<V> for Closest<V> {
     }
 }
 
-/// Whether there is any hit.
-#[derive(Clone, Copy, Debug)]
-pub struct Any<V: SimdF32> {
-    limit: V,
-    found: V::Mask,
-}
-
-impl<V: SimdF32> Any<V> {
-    /// No hit yet.
-    #[inline(always)]
-    pub fn new(s: V::Simd, packet: &Packet<V>) -> Self {
-        Any { limit: packet.tmax, found: V::Mask::splat(s, false) }
-    }
-
-    /// Writes the answers for the rays from `first` on.
-    #[inline(always)]
-    pub fn store(self, found: &mut [bool], first: usize) {
-        let lanes = self.found.to_array();
-        for (to, lane) in found[first..].iter_mut().zip(lanes.as_ref()) {
-            *to = *lane;
-        }
-    }
-}
-
-impl<V: SimdF32> Query<V> for Any<V> {
-    #[inline(always)]
-    fn limit(&self) -> V {
-        self.limit
-    }
-
-    #[inline(always)]
-    fn record(&mut self, s: V::Simd, mask: V::Mask, _prim: V::U32, _t: V, _u: V, _v: V) {
-        self.found |= mask;
-        self.limit = mask.select(V::splat(s, f32::NEG_INFINITY), self.limit);
-    }
-
-    #[inline(always)]
-    fn done(&self, s: V::Simd) -> bool {
-        self.limit.lt(V::splat(s, 0.0)).all()
-    }
-}
-
-/// The closest hit, or whether there is any, as is decided at run time: for whom two loops are too
-/// much to compile.
+/// The closest hit, or whether there is any, as is decided at run time: two loops would be twice the
+/// code.
 #[derive(Clone, Copy, Debug)]
 pub struct Either<V: SimdF32> {
     closest: Closest<V>,

@@ -25,7 +25,7 @@ use simd4::{Lanes, Simd, SimdF32, SimdMask};
 use super::wide::{self, Stack};
 use crate::Counters;
 use crate::bvh::layout::{Child, Wide, WideNode};
-use crate::packet::{Ask, Buckets, Chunk, Hits, LARGE, LargePacket, Rays, Single};
+use crate::packet::{Ask, Beam, Buckets, Chunk, Hits, LARGE, LargePacket, Rays, Single};
 use crate::quadric::{cone, sphere};
 use crate::slab::pyramid::{Culling, Sides};
 use crate::slab::{interval, robust};
@@ -34,6 +34,9 @@ use crate::tri::{self, BlockLanes, OwnBoxLanes, Watertight};
 
 /// The greatest difference of slopes for which a beam is narrow.
 const NARROW: f32 = 0.25;
+
+/// From so many lanes on it pays to sort rays.
+const SORTED: usize = 8;
 
 /// The most triangles of a block times the most registers.
 const MAX_PAIRS: usize = 8 * LARGE / 4;
@@ -78,8 +81,8 @@ impl Scratch {
 
 /// Finds what a batch of rays hits. `B` has a lane for each child.
 ///
-/// Neighbours go together as long as they are alike. Others wait in [`Buckets`] for those of their
-/// class, wherever in the batch they are.
+/// Neighbours go together as long as they are alike. Others go one by one or, where a register holds
+/// many, wait in [`Buckets`] for those of their class, wherever in the batch they are.
 #[inline(always)]
 pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
     s: S,
@@ -92,13 +95,15 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
     let Scratch { mut chunk, mut buckets, mut large, mut single } = Scratch::new(wide);
     let mut first = 0;
     loop {
+        let mut mixed = false;
         let waited = buckets.take(rays, most, first >= rays.len());
         if waited {
             chunk.load::<S::f32s>(s, buckets.rays(), 0, most);
         } else if first < rays.len() {
             chunk.load::<S::f32s>(s, rays, first, most);
             first += most;
-            if chunk.is_mixed() {
+            mixed = chunk.is_mixed();
+            if mixed && S::LANES >= SORTED {
                 chunk.store(hits, first - most);
                 buckets.put(&mut chunk, first - most);
                 continue;
@@ -109,7 +114,7 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
         while let Some(class) = chunk.next_class() {
             let packet = LargePacket::new(&mut chunk, class, any);
             let (large, single, stats) = (&mut *large, &mut single, &mut done);
-            Traversal { s, wide, large, single, packet, stats }.trace::<B>(class.rays);
+            Traversal { s, wide, large, single, packet, stats }.trace::<B>(class.rays, mixed);
         }
         if waited {
             chunk.scatter(hits, buckets.places());
@@ -131,28 +136,32 @@ pub(super) struct Traversal<'a, S: Simd, C: Counters, const N: usize> {
 }
 
 impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
-    /// Finds what those rays hit.
+    /// Finds what those rays hit; they go `alone`, or as long as they stay together.
     #[inline(always)]
-    fn trace<B: SimdF32<Simd = S>>(&mut self, rays: u64) {
+    fn trace<B: SimdF32<Simd = S>>(&mut self, rays: u64, alone: bool) {
+        if alone {
+            return self.run::<B, Spread>(&Culling::new(&Beam::UNKNOWN), rays, LARGE as u32);
+        }
         let beam = self.packet.beam::<S::f32s>(self.s);
         let [x, y] = beam.slopes;
         let narrow = x[1] - x[0] <= NARROW && y[1] - y[0] <= NARROW;
         if narrow && beam.has_apex() {
-            self.run::<B, Pyramid>(&Culling::new(&beam), rays);
+            self.run::<B, Pyramid>(&Culling::new(&beam), rays, Pyramid::FEW);
         } else {
-            self.run::<B, Spread>(&Culling::new(&beam), rays);
+            self.run::<B, Spread>(&Culling::new(&beam), rays, Spread::FEW);
         }
     }
 
+    /// Finds what those rays hit. Where so few are left below a node, they go on one by one.
     #[inline(always)]
-    fn run<B: SimdF32<Simd = S>, W: Way>(&mut self, culling: &Culling, rays: u64) {
+    fn run<B: SimdF32<Simd = S>, W: Way>(&mut self, culling: &Culling, rays: u64, few: u32) {
         let wide = self.wide;
         let mut next = Entry { child: Child::ROOT, enter: 0.0, rays };
         let mut top = 0;
         loop {
             let (rays, limit) = self.active(&next);
             let found = next.child.find();
-            let few = if found.is_ok() { W::FEW } else { W::FEW_IN_LEAF };
+            let few = if found.is_ok() { few } else { W::FEW_IN_LEAF };
             match found {
                 _ if rays.count_ones() <= few => self.one_by_one::<B>(next.child, rays),
                 Err(slots) => self.leaf::<B>(culling, &slots, rays),
