@@ -125,7 +125,7 @@ impl Counts {
             scene.facts.skipped.push(Skipped { what, why, count: self.invisible });
         }
         if self.stretched > 0 {
-            let many = plural(self.stretched, "stretched sphere or cone");
+            let many = plural(self.stretched, "stretched primitive");
             scene.facts.warnings.push(format!("{many}: drawn as triangles"));
         }
     }

@@ -91,7 +91,7 @@ fn what_is_stretched_becomes_triangles() {
     let scene = aff("s 9 9 9 1 xs 1 2 3 0 1 0 30 0 0 0 { s 0 0 0 1 c 0 0 0 1 0 0 1 1 } s 8 8 8 1");
     assert_eq!((scene.spheres.len(), scene.cones.len()), (2, 0));
     assert!(scene.mesh.triangles.len() > 500);
-    let warning = "2 stretched sphere or cones: drawn as triangles";
+    let warning = "2 stretched primitives: drawn as triangles";
     assert!(scene.facts.warnings.contains(&warning.to_owned()), "{:?}", scene.facts.warnings);
     assert_eq!(scene.facts.stated["sphere"], 3);
     // On the ellipsoid, with normals that point out.

@@ -17,6 +17,18 @@ const NFF: &str = "b 0.1 0.2 0.3\nv\nfrom 1 2 3\nat 0 0 0\nup 0 0 1\nangle 45\nh
     c 0 0 0 1 0 0 1 0.5\np 5\n0 0 0\n1 0 0\n1 1 0\n0.5 0.5 0\n0 1 0\n# end\n\
     pp 3\n0 0 0 0 0 1\n1 0 0 0 1 1\n0 1 0 1 0 1\n";
 
+const AFF: &str = "b 0 0 1 v from 0 0 9 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 8 6\nam 1 1 1\n\
+    l 1 2 3 la lamp 1 2 3 1 1 1 fm 1 1 1 1 0 0 0 1 0 9 0 1 % shiny\ni 0 b.aff d 1 i 2 b.aff\n\
+    xs 1 2 1 0 0 1 30 1 2 3 { s 0 0 0 1 c 0 0 0 1 0 0 1 0.5 x a { i 1 b.aff tt w.ppm 0 0 0 0 0\n\
+    1 0 0 1 0 0 1 0 0 1 } }\ntpa 2 0 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1 2 0 0 1 0 0 1 1 0 1\n\
+    0 0 1 0 1 1 0 0 1\nm vertices 3 0 0 0 1 0 0 0 1 0 normals 1 0 0 1 texturecoords 1 w.ppm 0 0\n\
+    triangles 1 0 1 2 0 0 0 0 0 0\na 0 9 9 k a { transl 4 0 1 1 1 0 0 0 0 1 1 1 0 0 0 5 1 1 1 0 0 0\n\
+    6 1 1 1 0 0 0 rot 4 0 0 1 0 9 0 0 0 0 0 1 0 9 0 0 0 5 0 1 0 9 0 0 0 6 0 1 0 9 0 0 0\n\
+    visibility 2 0 1 9 0 } k camera { scale 4 0 1 1 1 0 0 0 0 1 1 1 0 0 0 5 1 1 1 0 0 0 6 1 1 1 0 0 0 }\n";
+
+/// What it includes.
+const INCLUDED: &str = "p 4 0 0 0 1 0 0 1 1 0 0 1 0\npp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1\n";
+
 /// What may be put into a file: bytes that mean something to a reader, and any other.
 fn piece() -> impl Strategy<Value = Vec<u8>> {
     let words = [
@@ -82,6 +94,16 @@ fn parse_obj(obj: &[u8], mtl: &[u8]) -> Result<Scene, Error> {
     })
 }
 
+/// What a ball and a cone that are stretched are worth in text.
+const STRETCHED: usize = 4000;
+
+fn parse_aff(aff: &[u8], included: &[u8]) -> Result<Scene, Error> {
+    rt_scene::aff::parse(aff, "t.aff", &mut |name| match name {
+        "b.aff" => Ok(included.to_vec()),
+        _ => Err(io::ErrorKind::NotFound.into()),
+    })
+}
+
 /// A scene must be sound, and no larger than its file allows; an error must be short.
 fn check(result: &Result<Scene, Error>, bytes: usize) {
     let scene = match result {
@@ -131,6 +153,9 @@ fn the_files_are_good() {
     assert_eq!((scene.mesh.triangles.len(), scene.materials.len()), (7, 2));
     let scene = rt_scene::nff::parse(NFF.as_bytes(), "t.nff").unwrap();
     assert_eq!((scene.mesh.triangles.len(), scene.spheres.len(), scene.cones.len()), (4, 1, 1));
+    let scene = parse_aff(AFF.as_bytes(), INCLUDED.as_bytes()).unwrap();
+    // Twice what is included, three single ones, and those of a ball and a cone.
+    assert_eq!(scene.mesh.triangles.len(), 2 * 3 + 3 + 12 * 64 + 8 * 8);
 }
 
 #[test]
@@ -145,6 +170,9 @@ fn every_truncation() {
     }
     for end in 0..NFF.len() {
         check(&rt_scene::nff::parse(&NFF.as_bytes()[..end], "t.nff"), end);
+    }
+    for end in 0..AFF.len() {
+        check(&parse_aff(&AFF.as_bytes()[..end], INCLUDED.as_bytes()), STRETCHED + end);
     }
 }
 
@@ -169,8 +197,21 @@ proptest! {
     }
 
     #[test]
+    fn damaged_aff(bytes in damaged(AFF)) {
+        let result = parse_aff(&bytes, INCLUDED.as_bytes());
+        check(&result, STRETCHED + bytes.len());
+    }
+
+    #[test]
+    fn damaged_includes(bytes in damaged(INCLUDED)) {
+        let result = parse_aff(AFF.as_bytes(), &bytes);
+        check(&result, STRETCHED + AFF.len() + bytes.len());
+    }
+
+    #[test]
     fn any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         check(&parse_obj(&bytes, &bytes), bytes.len());
         check(&rt_scene::nff::parse(&bytes, "t.nff"), bytes.len());
+        check(&parse_aff(&bytes, &bytes), bytes.len());
     }
 }
