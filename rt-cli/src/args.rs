@@ -30,9 +30,10 @@ const SCENE: &str = "An OBJ, NFF or AFF file, or spd:NAME[:SIZE] for a procedura
 
 /// A ray tracer that gives the same bits on every machine.
 #[derive(Parser)]
-#[command(name = "rt", version, max_term_width = 100, disable_help_subcommand = true)]
+#[command(name = "rt", version, max_term_width = 100)]
 #[command(after_help = "Begin with:\n  \
-    rt render spd:balls -o balls.png\n\n\
+    rt render spd:balls -o balls.png\n  \
+    rt help render\n\n\
     Exit codes: 0 done, 1 failed, 2 wrong usage, 3 a threshold was missed, 130 interrupted")]
 pub(crate) struct Args {
     /// What to do.

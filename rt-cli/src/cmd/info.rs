@@ -84,11 +84,13 @@ fn predictions(scene: &Scene) -> Vec<Prediction> {
 
 fn scene_text(scene: &Scene, more: &[(&str, String)]) -> String {
     let mut text = format!("{}\n", scene.name);
+    let stated: Vec<_> = scene.facts.stated.keys().map(|kind| report::plural(kind)).collect();
+    let width = stated.iter().map(String::len).fold("degenerate".len(), usize::max) + 2;
     let mut line = |what: &str, value: String| {
-        let _ = writeln!(text, "  {what:<12}{value}");
+        let _ = writeln!(text, "  {what:<width$}{value}");
     };
-    for (kind, count) in &scene.facts.stated {
-        line(&report::plural(kind), count.to_string());
+    for (kinds, count) in stated.iter().zip(scene.facts.stated.values()) {
+        line(kinds, count.to_string());
     }
     line("triangles", scene.mesh.triangles.len().to_string());
     line("vertices", scene.mesh.positions.len().to_string());

@@ -53,6 +53,22 @@ fn nff_holds_all_of_an_nff() {
 }
 
 #[test]
+fn an_aff_and_what_it_includes_become_one_nff() {
+    let scratch = Scratch::new();
+    std::fs::create_dir(scratch.path("folder")).unwrap();
+    let view = "v from 0 0 9 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 60 40";
+    let text = format!("b 0 0 0.5 {view} l 5 9 9\nxs 1 2 1 0 0 1 30 1 0 0 {{ i 0 ball.aff }}\n");
+    scratch.file("folder/a.aff", text);
+    scratch.file("folder/ball.aff", "f 1 0.5 0.25 0.8 0.25 10 0 1\ns 0 0 0 1 % a ball");
+    let run = scratch.rt(&["convert", "folder/a.aff", "-o", "a.nff"]).exits(0);
+    assert!(run.stderr.starts_with("warning: 1 stretched primitive: drawn"), "{}", run.stderr);
+    let of_aff = pixels(&scratch, "folder/a.aff", &[]);
+    assert!(pixels(&scratch, "a.nff", &[]) == of_aff);
+    let red = of_aff.chunks(3).filter(|pixel| pixel[0] > 100).count();
+    assert!(red > 100 && of_aff[..3] == [0, 0, 188], "a ball before a blue sky");
+}
+
+#[test]
 fn what_a_format_cannot_hold_is_told() {
     let scratch = Scratch::with_room();
     let run = scratch.rt(&["convert", "spd:balls:1", "-o", "a.obj"]).exits(1);

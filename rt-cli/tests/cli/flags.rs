@@ -67,6 +67,14 @@ fn help_fits_a_terminal_and_names_groups_and_defaults() {
 }
 
 #[test]
+fn help_is_a_command_too() {
+    let scratch = Scratch::new();
+    assert_eq!(scratch.rt(&["help"]).exits(0).text(), scratch.rt(&["--help"]).exits(0).text());
+    let render = scratch.rt(&["help", "render"]).exits(0).text();
+    assert_eq!(render, scratch.rt(&["render", "--help"]).exits(0).text());
+}
+
+#[test]
 fn the_version_is_told() {
     let run = Scratch::new().rt(&["--version"]).exits(0);
     assert_eq!(run.text(), concat!("rt ", env!("CARGO_PKG_VERSION"), "\n"));

@@ -66,6 +66,14 @@ fn tessellated_primitives_are_stated_as_such_and_traced_as_triangles() {
 }
 
 #[test]
+fn long_names_have_their_numbers_apart() {
+    let scratch = Scratch::new();
+    scratch.file("a.aff", "m vertices 3 0 0 0 1 0 0 0 1 0 triangles 1 0 1 2");
+    let text = scratch.rt(&["info", "a.aff"]).exits(0).text();
+    assert!(text.starts_with("a.aff\n  mesh triangles  1\n  triangles       1\n"), "{text}");
+}
+
+#[test]
 fn a_scene_s_facts_as_text() {
     let scratch = Scratch::new();
     scratch.file("a.obj", TRIANGLE);

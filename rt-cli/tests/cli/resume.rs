@@ -6,7 +6,7 @@ use std::process::{Child, Command};
 
 use crate::support::{Run, Scratch, argv, run};
 
-/// Minutes of work, if it were let; many tiles, the first of which are soon done.
+/// Much work, if it were let; many tiles, the first of which are soon done.
 const LONG: [&str; 9] =
     ["render", "spd:balls:4", "--accel", "brute", "-j1", "-s", "1024x1024", "-o", "a.png"];
 
