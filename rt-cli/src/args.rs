@@ -11,7 +11,7 @@ pub(crate) use compare::CompareArgs;
 pub(crate) use convert::{CompletionsArgs, ConvertArgs};
 pub(crate) use machine::{BuildArgs, MachineArgs, best_level};
 pub(crate) use output::{PictureOutputArgs, picture_format};
-pub(crate) use paper::{GeimerMuellerArgs, Paper, PaperArgs, Wald2001Args};
+pub(crate) use paper::{GeimerMuellerArgs, Paper, PaperArgs, ShadingPaperArgs, Wald2001Args};
 
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
@@ -124,6 +124,9 @@ pub(crate) struct PictureArgs {
     /// The vertical angle of view [default: the scene's, or 40].
     #[arg(long, value_name = "DEGREES", value_parser = angle)]
     pub(crate) fov: Option<f32>,
+    /// Rays through each pixel, in a fixed pattern, averaged: smoother edges.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub(crate) spp: u32,
 }
 
 /// Light and shading.
@@ -149,6 +152,10 @@ pub(crate) struct ShadingArgs {
     /// Leave out the pictures on surfaces.
     #[arg(long)]
     pub(crate) no_textures: bool,
+    /// Leave out the backs of opaque surfaces, as if a closed room had no walls to look at from
+    /// outside.
+    #[arg(long)]
+    pub(crate) one_sided: bool,
 }
 
 /// How a scene is opened.

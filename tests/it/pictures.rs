@@ -35,6 +35,7 @@ fn job(world: &World, scene: &Scene, integrator: Integrator, exec: Exec) -> Job 
         lights: scene.lights.clone(),
         background: scene.background.unwrap_or(Vec3::splat(0.1)),
         integrator,
+        samples: 1,
         depth: 4,
         shadows: true,
         exec,

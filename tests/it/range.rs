@@ -22,6 +22,7 @@ fn picture(scene: &Scene, integrator: Integrator) -> Film {
         lights: scene.lights.clone(),
         background: Vec3::splat(0.125),
         integrator,
+        samples: 1,
         depth: 3,
         shadows: true,
         exec: Exec::best().expect("a level"),

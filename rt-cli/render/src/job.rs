@@ -21,7 +21,9 @@ pub struct Job {
     pub background: Vec3,
     /// What is computed of a hit.
     pub integrator: Integrator,
-    /// How often a ray may be reflected.
+    /// Rays through each pixel, averaged: one through the middle, or several in a fixed pattern.
+    pub samples: u32,
+    /// How often a ray may be reflected or refracted.
     pub depth: u32,
     /// Whether lights cast shadows.
     pub shadows: bool,

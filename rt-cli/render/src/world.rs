@@ -55,6 +55,7 @@ pub struct World {
     kind: AccelKind,
     plan: Plan,
     bounds: Aabb,
+    has_one_sided: bool,
     build_time: Duration,
 }
 
@@ -114,9 +115,10 @@ impl World {
             })
         })??;
         let build_time = start.elapsed();
+        let has_one_sided = scene.materials.iter().any(is_one_sided);
         let textures = &scene.textures;
         let shaders = scene.materials.iter().map(|material| shader(material, textures)).collect();
-        Ok(World { scene, shaders, accel, scale, kind, plan, bounds, build_time })
+        Ok(World { scene, shaders, accel, scale, kind, plan, bounds, has_one_sided, build_time })
     }
 
     /// What the scene is called.
@@ -142,6 +144,16 @@ impl World {
     /// The shader of the material at a point.
     pub(crate) fn shader(&self, point: &Point) -> &dyn Shader {
         &*self.shaders[point.material as usize]
+    }
+
+    /// Whether there are surfaces whose backs nobody sees.
+    pub(crate) fn has_one_sided(&self) -> bool {
+        self.has_one_sided
+    }
+
+    /// Whether nobody sees the backs of a material.
+    pub(crate) fn is_one_sided(&self, material: u32) -> bool {
+        is_one_sided(&self.scene.materials[material as usize])
     }
 
     /// What finds the hits.
@@ -271,6 +283,11 @@ impl Write for Fnv {
         self.take(text.as_bytes());
         Ok(())
     }
+}
+
+/// What is transparent has two sides: light leaves it by the other.
+fn is_one_sided(material: &rt_scene::Material) -> bool {
+    material.one_sided && material.transmission == Vec3::ZERO
 }
 
 /// The built-in shader of a material.

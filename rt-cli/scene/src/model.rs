@@ -163,6 +163,9 @@ pub struct Material {
     pub fresnel: bool,
     /// Light that the surface itself gives off.
     pub emission: Vec3,
+    /// Whether nobody sees its back, by what is opaque: rays that meet it go on. It casts shadows all
+    /// the same.
+    pub one_sided: bool,
 }
 
 impl Default for Material {
@@ -179,6 +182,7 @@ impl Default for Material {
             ior: 1.0,
             fresnel: false,
             emission: Vec3::ZERO,
+            one_sided: false,
         }
     }
 }

@@ -23,6 +23,33 @@ pub(crate) enum Paper {
     #[command(name = "wald-2001")]
     Wald2001(Wald2001Args),
     GeimerMueller(GeimerMuellerArgs),
+    Shading(ShadingPaperArgs),
+}
+
+/// What shading costs, beside what Wald, Slusallek, Benthin and Wagner found in 2001.
+///
+/// Phong's model in lanes against one point at a time, textures, a mirror that fills the picture
+/// (Sections 5 and 6.2, Figures 3 and 4), and frames a second of the procedural scenes and of any that
+/// are named. Interleaved rounds; the fastest of each.
+#[derive(Group)]
+#[command(after_help = "Examples:\n  \
+    rt paper shading --quick\n  \
+    rt paper shading conference.obj --json shading.json")]
+pub(crate) struct ShadingPaperArgs {
+    #[arg(value_name = "SCENE", help = super::SCENE)]
+    pub(crate) scenes: Vec<OsString>,
+    /// Smaller scenes: some seconds.
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Width and height in pixels.
+    #[arg(short, long, value_name = "WxH", value_parser = super::size, default_value = "512x512")]
+    pub(crate) size: (u32, u32),
+    /// How often everything is timed.
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) rounds: u16,
+    /// Write the rows to a .json file too; - for standard output, where no table is then.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
 }
 
 /// Wald, Slusallek, Benthin and Wagner, "Interactive Rendering with Coherent Ray Tracing".

@@ -97,6 +97,7 @@ fn job(view: View, size: (u32, u32), exec: Exec) -> Job {
         lights: Vec::new(),
         background: Vec3::ZERO,
         integrator: Integrator::Depth,
+        samples: 1,
         depth: 0,
         shadows: false,
         exec,

@@ -48,6 +48,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
     if args.shading.no_textures {
         scene.remove_textures();
     }
+    if args.shading.one_sided {
+        scene.materials.iter_mut().for_each(|material| material.one_sided = true);
+    }
     if args.verbose {
         let (name, took) = (&scene.name, report::time(start.elapsed()));
         ui::say(&format!("{name}: opened in {took}: {}", report::contents(&scene)));
@@ -79,6 +82,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
         lights: if args.shading.light.is_empty() { own_lights } else { args.shading.light.clone() },
         background: args.shading.background.or(own_background).unwrap_or(BACKGROUND),
         integrator: args.shading.integrator.into(),
+        samples: args.picture.spp,
         depth: args.shading.depth,
         shadows: !args.shading.no_shadows,
         exec: world.exec(exec),

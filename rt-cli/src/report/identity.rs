@@ -13,6 +13,7 @@ pub(crate) fn identity(world: &World, job: &Job) -> Vec<String> {
         lights,
         background,
         integrator,
+        samples,
         depth,
         shadows,
         // The pixels do not depend on these.
@@ -27,6 +28,7 @@ pub(crate) fn identity(world: &World, job: &Job) -> Vec<String> {
         format!("view {}", flags(view)),
         format!("background {}", list(*background)),
         format!("integrator {}", integrator.name()),
+        format!("samples {samples}"),
         format!("depth {depth}"),
         format!("shadows {shadows}"),
         format!("kernel {}", world.method().name()),

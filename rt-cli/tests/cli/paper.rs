@@ -72,3 +72,24 @@ fn the_simulator_gets_a_frame_or_none() {
     }
     scratch.rt(&["paper", "no-such-paper"]).exits(2);
 }
+
+#[test]
+fn what_shading_costs_stands_beside_the_paper() {
+    let scratch = Scratch::with_room();
+    let quick = ["paper", "shading", "room.obj", "--quick", "-s", "32x32", "--rounds", "1"];
+    let run = scratch.rt(&[&quick[..], &["--json", "a.json"]].concat()).exits(0);
+    let table = run.text();
+    for text in ["2 to 2.5 times", "less than 10 %", "Figure 4", "0.8 to 1.8", "room.obj"] {
+        assert!(table.contains(text), "{text:?} in\n{table}");
+    }
+    let json: Value = serde_json::from_slice(&scratch.bytes("a.json")).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    let count = |what: &str| rows.iter().filter(|row| row["what"] == what).count();
+    // One point at a time, and each level.
+    assert_eq!(count("phong"), 1 + levels().len());
+    assert_eq!((count("shading"), count("texturing"), count("close-up")), (3, 1, 2));
+    assert_eq!(count("speed"), 12);
+    for row in rows.iter().filter(|row| row["what"] == "speed") {
+        assert!(row["full_fps"].as_f64().unwrap() > 0.0, "{row}");
+    }
+}

@@ -141,6 +141,7 @@ mod tests {
             lights: Vec::new(),
             background: Vec3::ZERO,
             integrator: Default::default(),
+            samples: 1,
             depth: 0,
             shadows: false,
             exec: Exec::best().expect("a level"),

@@ -7,7 +7,7 @@ use super::{RayKind, Scratch};
 use crate::exec::{Tally, TileJob};
 use crate::shade::Surface;
 
-/// Traces the primary rays and gives each hit the colour that `color` makes of it.
+/// Traces the primary rays and adds to each pixel the colour that `color` makes of its hit.
 pub(super) fn integrate(
     job: &TileJob<'_>,
     scratch: &mut Scratch,
@@ -15,11 +15,11 @@ pub(super) fn integrate(
     tally: &mut Tally,
     color: impl Fn(&TileJob<'_>, &Ray, &Hit) -> Vec3,
 ) {
-    let Scratch { rays, hits, .. } = scratch;
-    tally.closest(job, RayKind::Primary, rays, hits);
+    let Scratch { rays, seen, .. } = scratch;
+    seen.find(job, RayKind::Primary, rays, tally);
     tally.shading(|| {
         for (i, pixel) in colors.iter_mut().enumerate() {
-            *pixel = match hits.get(i) {
+            *pixel += match seen.get(i) {
                 Some(hit) => color(job, &rays.get(i), &hit),
                 None => job.job.background,
             };

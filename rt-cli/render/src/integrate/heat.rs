@@ -39,7 +39,7 @@ pub(super) fn integrate(
         scratch.rays.extend([ray]);
         let before = tally.steps();
         tally.closest(&alone, RayKind::Primary, &scratch.rays, &mut scratch.hits);
-        *color = heat(tally.steps() - before);
+        *color += heat(tally.steps() - before);
     }
 }
 

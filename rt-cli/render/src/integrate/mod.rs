@@ -5,12 +5,15 @@
 
 mod direct;
 mod heat;
+mod sample;
+mod seen;
 mod whitted;
 
 use glam::Vec3;
 use rt_kernels::{Hits, Rays};
+use seen::Seen;
 
-use crate::exec::{Tally, TileJob, tile};
+use crate::exec::{Tally, TileJob};
 
 /// What is computed of a hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,10 +64,12 @@ pub enum RayKind {
 pub(crate) struct Scratch {
     rays: Rays,
     hits: Hits,
+    seen: Seen,
     whitted: whitted::Scratch,
 }
 
-/// Computes the colours of a tile's pixels, in the order of [`TileJob::pixels`].
+/// Computes the colours of a tile's pixels, in the order of [`TileJob::pixels`]. All pixels are done with
+/// one sample before the next begins: so neighbours stay together.
 pub(crate) fn integrate(
     job: &TileJob<'_>,
     scratch: &mut Scratch,
@@ -73,13 +78,21 @@ pub(crate) fn integrate(
 ) {
     colors.clear();
     colors.resize(job.pixels.len(), Vec3::ZERO);
-    scratch.rays.clear();
-    scratch.rays.extend(tile::rays(&job.camera, &job.pixels));
-    match job.job.integrator {
-        Integrator::Whitted => whitted::integrate(job, scratch, colors, tally),
-        Integrator::Eyelight => direct::integrate(job, scratch, colors, tally, direct::eyelight),
-        Integrator::Normals => direct::integrate(job, scratch, colors, tally, direct::normals),
-        Integrator::Depth => direct::integrate(job, scratch, colors, tally, direct::depth),
-        Integrator::Heat => heat::integrate(job, scratch, colors, tally),
+    let samples = job.job.samples.max(1);
+    for sample in 0..samples {
+        scratch.rays.clear();
+        scratch.rays.extend(sample::rays(&job.camera, &job.pixels, sample, samples));
+        match job.job.integrator {
+            Integrator::Whitted => whitted::integrate(job, scratch, colors, tally),
+            Integrator::Eyelight => {
+                direct::integrate(job, scratch, colors, tally, direct::eyelight);
+            }
+            Integrator::Normals => direct::integrate(job, scratch, colors, tally, direct::normals),
+            Integrator::Depth => direct::integrate(job, scratch, colors, tally, direct::depth),
+            Integrator::Heat => heat::integrate(job, scratch, colors, tally),
+        }
+    }
+    if samples > 1 {
+        colors.iter_mut().for_each(|color| *color /= samples as f32);
     }
 }

@@ -2,10 +2,10 @@
 //! equally often go together, reflected ones first. Source: Whitted 1980.
 
 use glam::Vec3;
-use rt_kernels::{Hits, PacketSize, Ray, Rays};
-use simd4::dispatch;
+use rt_kernels::{Ray, Rays};
 
 use super::RayKind;
+use super::seen::Seen;
 use crate::exec::{PointLight, Tally, TileJob};
 use crate::shade::{self, Finish, Lit, Points, Surface, bounce};
 
@@ -67,18 +67,18 @@ pub(super) fn integrate(
     colors: &mut [Vec3],
     tally: &mut Tally,
 ) {
-    let super::Scratch { rays, hits, whitted: scratch } = scratch;
+    let super::Scratch { rays, seen, whitted: scratch, .. } = scratch;
     // A pixel's sum does not depend on what other pixels go with it.
     let paths = MAX_PATHS_OF_PIXEL.min(1 << job.job.depth.min(16));
     let together = MAX_PATHS / paths;
     if rays.len() <= together {
-        return scratch.pixels(job, rays, 0, hits, colors, tally);
+        return scratch.pixels(job, rays, 0, seen, colors, tally);
     }
     let mut some = Rays::new();
     for first in (0..rays.len()).step_by(together) {
         some.clear();
         some.extend((first..rays.len().min(first + together)).map(|i| rays.get(i)));
-        scratch.pixels(job, &some, first, hits, colors, tally);
+        scratch.pixels(job, &some, first, seen, colors, tally);
     }
 }
 
@@ -89,14 +89,14 @@ impl Scratch {
         job: &TileJob<'_>,
         rays: &Rays,
         first: usize,
-        hits: &mut Hits,
+        seen: &mut Seen,
         colors: &mut [Vec3],
         tally: &mut Tally,
     ) {
         self.met.clear();
-        tally.closest(job, RayKind::Primary, rays, hits);
+        seen.find(job, RayKind::Primary, rays, tally);
         let start = |i| Path { pixel: first + i, weight: Vec3::ONE };
-        tally.shading(|| meet(&mut self.met, job, rays, hits, start, colors));
+        tally.shading(|| meet(&mut self.met, job, rays, seen, start, colors));
         for bounces in 0.. {
             self.light(job, colors, tally);
             if bounces == job.job.depth {
@@ -107,9 +107,9 @@ impl Scratch {
             for (batch, kind) in self.batches.iter().zip([RayKind::Reflection, RayKind::Refraction])
             {
                 if !batch.rays.is_empty() {
-                    tally.closest(job, kind, &batch.rays, hits);
+                    seen.find(job, kind, &batch.rays, tally);
                     let path = |i: usize| batch.paths[i];
-                    tally.shading(|| meet(&mut self.met, job, &batch.rays, hits, path, colors));
+                    tally.shading(|| meet(&mut self.met, job, &batch.rays, seen, path, colors));
                 }
             }
             if self.met.is_empty() {
@@ -145,12 +145,7 @@ impl Scratch {
     /// Adds what one light adds, or sends shadow rays to it.
     fn lit_by(&mut self, job: &TileJob<'_>, light: &PointLight, colors: &mut [Vec3]) {
         let Scratch { met, points, lit, .. } = self;
-        match job.job.exec.packet {
-            PacketSize::Single => {
-                shade::light::<simd4::scalar::f32x1>(simd4::Scalar::new(), points, light, lit);
-            }
-            _ => dispatch!(job.job.exec.level, s => lit_in_lanes(s, points, light, lit)),
-        }
+        shade::light(job.job.exec, points, light, lit);
         for (i, Met { path, surface, finish }) in met.iter().enumerate() {
             let to_light = lit.to_light(i);
             let mut weight = lit.added(i);
@@ -192,23 +187,18 @@ impl Scratch {
     }
 }
 
-#[inline(always)]
-fn lit_in_lanes<S: simd4::Simd>(s: S, points: &Points, light: &PointLight, lit: &mut Lit) {
-    shade::light::<S::f32s>(s, points, light, lit);
-}
-
 /// Collects the surfaces that rays met; what gives off light and what is behind all is added at once.
 fn meet(
     met: &mut Vec<Met>,
     job: &TileJob<'_>,
     rays: &Rays,
-    hits: &Hits,
+    seen: &Seen,
     path: impl Fn(usize) -> Path,
     colors: &mut [Vec3],
 ) {
     for i in 0..rays.len() {
         let path = path(i);
-        match hits.get(i) {
+        match seen.get(i) {
             Some(hit) => {
                 let surface = Surface::at(job.world, &rays.get(i), &hit);
                 let finish = job.world.finish(&surface.point);

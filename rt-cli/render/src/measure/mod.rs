@@ -6,6 +6,7 @@ mod lanes;
 mod random;
 mod raster;
 mod rays;
+mod shading;
 mod terrain;
 mod traversals;
 
@@ -14,6 +15,7 @@ pub use frames::{Extent, FrameTimes, frames};
 pub use lanes::{TestRow, tests};
 pub use raster::ZBuffer;
 pub use rays::{Batches, diffuse, primary, shadow};
+pub use shading::{phong, pictures, textured_terrain};
 pub use terrain::terrain;
 pub use traversals::{TraversalRow, traversals};
 

@@ -83,6 +83,7 @@ mod tests {
             lights: Vec::new(),
             background: Vec3::ZERO,
             integrator: Integrator::Depth,
+            samples: 1,
             depth: 0,
             shadows: false,
             exec,

@@ -1,8 +1,9 @@
 //! Phong's reflection model: for one point, and for as many as there are lanes.
 
 use glam::Vec3;
-use simd4::math;
+use rt_kernels::{Exec, PacketSize};
 use simd4::prelude::*;
+use simd4::{dispatch, math, scalar};
 
 use super::Finish;
 use super::points::{Lit, Points};
@@ -27,17 +28,30 @@ pub(crate) fn phong(finish: &Finish, normal: Vec3, to_light: Vec3, dir: Vec3) ->
 /// zero where the light is behind the surface. The points of all materials go through together: each
 /// lane has its own.
 ///
-/// The bits do not depend on how many lanes there are.
+/// Single rays have single points; else there are as many as the level has lanes. The bits do not
+/// depend on it.
 ///
 /// Source: Wald, Slusallek, Benthin and Wagner 2001, Section 5. Deviations: (1) what lights add is
 /// computed before it is known whether they are visible, so that no shadow ray is sent where they add
 /// nothing; (2) points are rearranged into lanes once for all lights; (3) any number of lanes.
+pub(crate) fn light(exec: Exec, points: &Points, light: &PointLight, lit: &mut Lit) {
+    lit.resize(points.len());
+    match exec.packet {
+        PacketSize::Single => in_lanes::<scalar::f32x1>(simd4::Scalar::new(), points, light, lit),
+        _ => dispatch!(exec.level, s => native(s, points, light, lit)),
+    }
+}
+
 #[inline(always)]
-pub(crate) fn light<V: SimdF32>(s: V::Simd, points: &Points, light: &PointLight, lit: &mut Lit) {
+fn native<S: Simd>(s: S, points: &Points, light: &PointLight, lit: &mut Lit) {
+    in_lanes::<S::f32s>(s, points, light, lit);
+}
+
+#[inline(always)]
+fn in_lanes<V: SimdF32>(s: V::Simd, points: &Points, light: &PointLight, lit: &mut Lit) {
     let (zero, one) = (V::splat(s, 0.0), V::splat(s, 1.0));
     let position = math::Vec3::splat(s, light.position.to_array());
     let [red, green, blue] = light.color.to_array().map(|channel| V::splat(s, channel));
-    lit.resize(points.len());
     let mut i = 0;
     while i < points.len() {
         let towards = position - vector(s, &points.leave, i);

@@ -17,6 +17,7 @@ pub(crate) fn job(scene: &Scene, size: (u32, u32), depth: u32) -> Job {
         lights: scene.lights.clone(),
         background: scene.background.unwrap_or(Vec3::ONE),
         integrator: Integrator::Whitted,
+        samples: 1,
         depth,
         shadows: true,
         exec: Exec::best().expect("a level"),

@@ -154,6 +154,7 @@ fn convert(name: String, stated: &Stated<'_>, material: &tobj::Material) -> Mate
         ior: ior.unwrap_or(default.ior),
         fresnel: matches!(model, Some(5 | 7)),
         emission: color(material.emissive, default.emission),
+        one_sided: false,
     }
 }
 

@@ -39,6 +39,7 @@ fn everything_that_is_understood() {
         ior: 1.5,
         fresnel: true,
         emission: Vec3::new(17.0, 12.0, 4.0),
+        one_sided: false,
     };
     assert_eq!(material(format!("\u{FEFF}{text}")), (expected, vec![]));
 }

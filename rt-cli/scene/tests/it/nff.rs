@@ -36,6 +36,7 @@ fn everything_that_is_read() {
         fresnel: false,
         shininess: 10.0,
         emission: Vec3::ZERO,
+        one_sided: false,
     };
     assert_eq!(scene.materials, [material]);
     let sphere = Sphere { center: Vec3::new(1.0, 2.0, 3.0), radius: 4.0, material: 0 };
@@ -243,7 +244,7 @@ proptest! {
         let (specular, mirror, transmission) = (grey, grey, Vec3::splat(clear));
         let emission = Vec3::ZERO;
         scene.materials = vec![Material {
-            name, diffuse, diffuse_map: None, specular, mirror, shininess, transmission, ior, fresnel: false, emission
+            name, diffuse, diffuse_map: None, specular, mirror, shininess, transmission, ior, fresnel: false, emission, one_sided: false
         }];
         scene.lights =
             lights.into_iter().map(|color| Light { position: color, color }).collect();

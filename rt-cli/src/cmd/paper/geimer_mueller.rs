@@ -107,6 +107,7 @@ fn prepared(
         lights,
         background,
         integrator: Integrator::Whitted,
+        samples: 1,
         depth: 0,
         shadows: false,
         exec: Exec::at(best_level()?),

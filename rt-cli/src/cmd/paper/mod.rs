@@ -3,6 +3,7 @@
 mod cachegrind;
 mod geimer_mueller;
 mod report;
+mod shading;
 mod wald_2001;
 
 use crate::args::{Paper, PaperArgs};
@@ -12,5 +13,6 @@ pub(crate) fn run(args: &PaperArgs) -> Result<(), Error> {
     match &args.paper {
         Paper::Wald2001(args) => wald_2001::run(args),
         Paper::GeimerMueller(args) => geimer_mueller::run(args),
+        Paper::Shading(args) => shading::run(args),
     }
 }
