@@ -11,7 +11,9 @@ pub(crate) use compare::CompareArgs;
 pub(crate) use convert::{CompletionsArgs, ConvertArgs};
 pub(crate) use machine::{BuildArgs, MachineArgs, best_level};
 pub(crate) use output::{PictureOutputArgs, picture_format};
-pub(crate) use paper::{GeimerMuellerArgs, Paper, PaperArgs, ShadingPaperArgs, Wald2001Args};
+pub(crate) use paper::{
+    GeimerMuellerArgs, Paper, PaperArgs, ShadingPaperArgs, Wald2001Args, Wald2001Part,
+};
 
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;

@@ -237,6 +237,12 @@ impl Store {
         }
     }
 
+    /// The triangle in a slot; `None` if there is something else.
+    #[inline(always)]
+    pub(crate) fn triangle(&self, slot: usize) -> Option<&Record> {
+        self.triangles.get(slot)
+    }
+
     /// The number of slots: a primitive may have several.
     pub(crate) fn slots(&self) -> usize {
         let [.., cones] = self.slots_by_kind();

@@ -72,7 +72,8 @@ fn one_answer_with(
     for plan in every_kd_plan(method) {
         let kd = KdTree::build_with(scene, plan, &Sequential).expect("a scene in range");
         let default = plan.builder == KdBuilder::default() && plan.mailbox == Mailbox::default();
-        let execs = if default { ways() } else { vec![plainest(), widest()] };
+        let large = Exec { packet: PacketSize::Large, ..widest() };
+        let execs = if default { ways() } else { vec![plainest(), widest(), large] };
         for exec in execs {
             same(&want, &format!("{plan:?}"), &kd, exec, rays);
         }

@@ -20,6 +20,9 @@ fn flat(triangles: Vec<Triangle>) -> Primitives {
     Primitives { triangles, ..Primitives::default() }
 }
 
+const PACKETS: [PacketSize; 4] =
+    [PacketSize::Single, PacketSize::Four, PacketSize::Sixteen, PacketSize::Large];
+
 fn best() -> Exec {
     Exec::best().expect("a level")
 }
@@ -34,7 +37,7 @@ fn one_answer(scene: &Primitives, rays: &Rays) -> usize {
         hits = want.iter().flatten().count();
         for plan in every_kd_plan(method) {
             let tree = KdTree::build_with(scene, plan, &Sequential).expect("in range");
-            for packet in [PacketSize::Single, PacketSize::Native, PacketSize::Four] {
+            for packet in PACKETS {
                 let exec = Exec { packet, ..best() };
                 let (got, found) = (closest_bits(&tree, exec, rays), any(&tree, exec, rays));
                 for (i, want) in want.iter().enumerate() {
@@ -113,7 +116,7 @@ fn a_screen_hides_no_cell() {
             let tree = build(&scene, builder);
             tried += 1;
             cut += usize::from(tree.references() > scene.len());
-            for exec in [exec, best()] {
+            for exec in PACKETS.map(|packet| Exec { packet, ..best() }) {
                 let got = closest_bits(&tree, exec, &shown);
                 for (i, want) in want.iter().enumerate() {
                     let ray = shown.get(i);
@@ -205,7 +208,7 @@ fn closed_meshes_hold() {
                 aim::at(center + random.in_ball() * (0.8 * size), target)
             })
             .collect();
-        for exec in [best(), Exec { packet: PacketSize::Single, ..best() }] {
+        for exec in PACKETS.map(|packet| Exec { packet, ..best() }) {
             let leaks = any(&tree, exec, &aimed).into_iter().filter(|found| !found).count();
             assert_eq!(leaks, 0, "of {} rays, {exec:?}, at {center}", aimed.len());
         }
@@ -278,16 +281,21 @@ fn mailboxes_spare_tests() {
     }
     let tree = build(&flat(triangles), KdBuilder::Sweep);
     let aimed: Rays = (0..500).map(|_| aim::at(random.in_cube() * 3.0, random.in_cube())).collect();
-    let exec = Exec { packet: PacketSize::Single, ..best() };
+    for packet in PACKETS {
+        mailboxes_spare(&tree, &aimed, Exec { packet, ..best() });
+    }
+}
+
+fn mailboxes_spare(tree: &KdTree, aimed: &Rays, exec: Exec) {
     let work = |mailbox| {
         let (tree, mut stats) = (tree.clone().with_mailbox(mailbox), Stats::default());
         let mut hits = Hits::new();
-        tree.closest(exec, &aimed, &mut hits, &mut stats);
+        tree.closest(exec, aimed, &mut hits, &mut stats);
         let hits: Vec<_> = (0..aimed.len()).map(|i| hits.get(i).map(bits)).collect();
         (stats, hits)
     };
     let (none, hits) = work(Mailbox::None);
-    assert_eq!(none.mailed, 0);
+    assert_eq!(none.mailed, 0, "{exec:?}");
     let mut spared = Vec::new();
     for mailbox in [Mailbox::Stamps, Mailbox::Hashed(16), Mailbox::Hashed(2), Mailbox::Inverse] {
         let (stats, same) = work(mailbox);
@@ -297,6 +305,8 @@ fn mailboxes_spare_tests() {
         spared.push(stats.mailed);
     }
     let [stamps, large, small, inverse] = spared[..] else { unreachable!() };
-    assert!(stamps > none.triangle_tests / 10 && stamps == large, "{spared:?}");
+    assert!(large > none.triangle_tests / 20 && stamps <= large && stamps > 0, "{spared:?}");
+    // Rays that a large packet leaves alone take over its stamps.
+    assert!(stamps == large || exec.packet == PacketSize::Large, "{exec:?}: {spared:?}");
     assert!(small < large && small > 0 && inverse < large && inverse > 0, "{spared:?}");
 }

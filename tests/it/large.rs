@@ -2,34 +2,45 @@
 
 use glam::Vec3;
 use proptest::prelude::*;
-use rt_kernels::{Accelerator, Brute, Bvh, Exec, Hits, Layout, PacketSize, Plan, Primitives};
-use rt_kernels::{Ray, Rays, Sequential, Stats};
+use rt_kernels::{Accelerator, Brute, Bvh, Exec, Hits, KdBuilder, KdPlan, KdTree, Layout};
+use rt_kernels::{PacketSize, Plan, Primitives, Ray, Rays, Sequential, Stats};
 use rt_tests::random::Random;
 use rt_tests::strategies::{RayPlan, config, ray, scene};
 use rt_tests::trace::{any, closest_bits};
 use rt_tests::{aim, mesh::Mesh};
 use simd4::Level;
 
-const WIDE: [Layout; 2] = [Layout::Bvh4, Layout::Bvh8];
-
-/// Checks every level and both widths against brute force, one ray at a time.
+/// Checks every level and accelerator against brute force, one ray at a time.
 fn one_answer(scene: &Primitives, rays: &Rays) {
     let first = Level::available().next().expect("scalar is always there");
     let brute = Brute::build(scene).expect("in range");
     let want = closest_bits(&brute, Exec { level: first, packet: PacketSize::Single }, rays);
-    for layout in WIDE {
-        let plan = Plan { layout, ..Plan::default() };
-        let bvh = Bvh::build_with(scene, plan, &Sequential).expect("in range");
+    for (name, accel) in accelerators(scene) {
         for level in Level::available() {
             let exec = Exec { level, packet: PacketSize::Large };
-            let (got, found) = (closest_bits(&bvh, exec, rays), any(&bvh, exec, rays));
+            let (got, found) = (closest_bits(&*accel, exec, rays), any(&*accel, exec, rays));
             for (i, want) in want.iter().enumerate() {
                 let ray = rays.get(i);
-                assert_eq!(got[i], *want, "{layout:?}, {level}: the closest hit of {ray:?}");
-                assert_eq!(found[i], want.is_some(), "{layout:?}, {level}: any hit of {ray:?}");
+                assert_eq!(got[i], *want, "{name}, {level}: the closest hit of {ray:?}");
+                assert_eq!(found[i], want.is_some(), "{name}, {level}: any hit of {ray:?}");
             }
         }
     }
+}
+
+/// All that have large packets.
+fn accelerators(scene: &Primitives) -> Vec<(&'static str, Box<dyn Accelerator>)> {
+    let wide = [Layout::Bvh4, Layout::Bvh8].map(|layout| {
+        let plan = Plan { layout, ..Plan::default() };
+        let bvh = Bvh::build_with(scene, plan, &Sequential).expect("in range");
+        (layout.name(), Box::new(bvh) as Box<dyn Accelerator>)
+    });
+    let cells = KdBuilder::ALL.map(|builder| {
+        let plan = KdPlan { builder, ..KdPlan::default() };
+        let tree = KdTree::build_with(scene, plan, &Sequential).expect("in range");
+        (builder.name(), Box::new(tree) as Box<dyn Accelerator>)
+    });
+    wide.into_iter().chain(cells).collect()
 }
 
 /// A bundle about a ray: directions that differ by little or nothing, from its origin.
@@ -81,7 +92,6 @@ fn bundles_at_edges_do_not_escape() {
             corners: triangle.corners.map(|corner| corner + at),
         });
         let scene = Primitives { triangles: moved.collect(), ..Primitives::default() };
-        let bvh = Bvh::build(&scene, &Sequential).expect("in range");
         let mut random = Random::new(7);
         // Neighbours in the mesh are neighbours in a packet.
         let mut rays = Rays::new();
@@ -91,12 +101,14 @@ fn bundles_at_edges_do_not_escape() {
             rays.push(aim::at(origin, a));
             rays.push(aim::at(origin, b + (c - b) * random.unit() as f32));
         }
-        for level in Level::available() {
-            let exec = Exec { level, packet: PacketSize::Large };
-            let mut hits = Hits::new();
-            bvh.closest(exec, &rays, &mut hits, &mut Stats::default());
-            let lost = (0..rays.len()).filter(|&i| hits.get(i).is_none()).count();
-            assert_eq!(lost, 0, "{level}, at {at}: of {} rays", rays.len());
+        for (name, accel) in accelerators(&scene) {
+            for level in Level::available() {
+                let exec = Exec { level, packet: PacketSize::Large };
+                let mut hits = Hits::new();
+                accel.closest(exec, &rays, &mut hits, &mut Stats::default());
+                let lost = (0..rays.len()).filter(|&i| hits.get(i).is_none()).count();
+                assert_eq!(lost, 0, "{name}, {level}, at {at}: of {} rays", rays.len());
+            }
         }
     }
 }
@@ -106,7 +118,6 @@ fn bundles_at_edges_do_not_escape() {
 fn rays_that_go_together_share_visits() {
     let mesh = Mesh::icosphere(5);
     let scene = mesh.primitives();
-    let bvh = Bvh::build(&scene, &Sequential).expect("in range");
     let mut random = Random::new(3);
     let eye = Vec3::new(0.3, 0.2, 5.0);
     let from_eye: Rays = (0..64)
@@ -118,6 +129,7 @@ fn rays_that_go_together_share_visits() {
             aim::at(point() * 2.0, point())
         })
         .collect();
+    let bvh = Bvh::build(&scene, &Sequential).expect("in range");
     let visits = |rays: &Rays, packet| {
         let mut stats = Stats::default();
         let exec = Exec { packet, ..Exec::best().expect("a level") };
@@ -130,6 +142,17 @@ fn rays_that_go_together_share_visits() {
     assert!(gains.is_sorted_by(|a, b| a < b) && gains[3] >= 10, "{gains:?}");
     let gain = gain(&scattered, PacketSize::Large);
     assert!(gain >= 1, "{gain}");
+    // Of kd-trees too.
+    for (name, accel) in accelerators(&scene) {
+        let visits = |packet| {
+            let mut stats = Stats::default();
+            let exec = Exec { packet, ..Exec::best().expect("a level") };
+            accel.closest(exec, &from_eye, &mut Hits::new(), &mut stats);
+            stats.node_visits
+        };
+        let gain = visits(PacketSize::Single) / visits(PacketSize::Large);
+        assert!(gain >= 10, "{name}: {gain}");
+    }
 }
 
 /// How many rays a packet has where it goes.

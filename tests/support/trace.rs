@@ -39,7 +39,7 @@ pub fn bits(hit: Hit) -> [u32; 4] {
 }
 
 /// The closest hit of each ray.
-pub fn closest(accel: &impl Accelerator, exec: Exec, rays: &Rays) -> Vec<Option<Hit>> {
+pub fn closest(accel: &(impl Accelerator + ?Sized), exec: Exec, rays: &Rays) -> Vec<Option<Hit>> {
     let mut hits = Hits::new();
     accel.closest(exec, rays, &mut hits, &mut Stats::default());
     assert_eq!(hits.len(), rays.len(), "one answer a ray");
@@ -47,12 +47,12 @@ pub fn closest(accel: &impl Accelerator, exec: Exec, rays: &Rays) -> Vec<Option<
 }
 
 /// The bits of the closest hit of each ray.
-pub fn closest_bits(accel: &impl Accelerator, exec: Exec, rays: &Rays) -> Vec<Bits> {
+pub fn closest_bits(accel: &(impl Accelerator + ?Sized), exec: Exec, rays: &Rays) -> Vec<Bits> {
     closest(accel, exec, rays).into_iter().map(|hit| hit.map(bits)).collect()
 }
 
 /// Whether each ray hits anything.
-pub fn any(accel: &impl Accelerator, exec: Exec, rays: &Rays) -> Vec<bool> {
+pub fn any(accel: &(impl Accelerator + ?Sized), exec: Exec, rays: &Rays) -> Vec<bool> {
     let mut found = Vec::new();
     accel.any(exec, rays, &mut found, &mut Stats::default());
     found

@@ -22,7 +22,7 @@ pub use integrate::{Integrator, RayKind};
 pub use job::{Crop, Job, RenderError, check_crop, check_size};
 pub use rt_kernels::geom::Aabb;
 pub use rt_kernels::tri::Method;
-pub use rt_kernels::{Builder, Exec, KdBuilder, Layout, Mailbox, PacketSize, Plan};
+pub use rt_kernels::{Builder, Exec, KdBuilder, KdTree, Layout, Mailbox, PacketSize, Plan};
 pub use shade::{Finish, Point, Shader};
 pub use simd4::{Level, LevelError};
 pub use world::{AccelKind, World, bounds};

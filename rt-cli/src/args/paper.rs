@@ -3,7 +3,8 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args as Group, Subcommand};
+use clap::{Args as Group, Subcommand, ValueEnum};
+use rt_render::PacketSize;
 use rt_render::measure::Extent;
 
 /// Measure again what a paper measured, with its figures beside ours.
@@ -59,22 +60,74 @@ pub(crate) struct ShadingPaperArgs {
 #[derive(Group)]
 #[command(after_help = "Examples:\n  \
     rt paper wald-2001 --quick\n  \
-    rt paper wald-2001 bunny.obj conference.obj --charts .")]
+    rt paper wald-2001 bunny.obj conference.obj --charts .\n  \
+    rt paper wald-2001 --part structures --triangles 8000000 --json rows.json")]
 pub(crate) struct Wald2001Args {
     #[arg(value_name = "SCENE", help = super::SCENE)]
     pub(crate) scenes: Vec<OsString>,
     /// Fewer triangles.
     #[arg(long)]
     pub(crate) quick: bool,
-    /// The most triangles of a terrain.
+    /// The most triangles of a scene that is computed.
     #[arg(long, value_name = "N", default_value_t = 1_100_000)]
     pub(crate) triangles: u32,
     /// How often everything is timed.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) rounds: u16,
+    /// What to measure; can be given several times [default: all but traffic, for which valgrind has
+    /// to be there].
+    #[arg(long = "part", value_enum, value_name = "PART")]
+    pub(crate) parts: Vec<Wald2001Part>,
     /// Write charts to .svg files in that folder.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) charts: Option<PathBuf>,
+    /// Write the rows to a .json file too; - for standard output, where no table is then.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// What runs in valgrind: the rays of a scene in packets of that size, or none, and nothing else.
+    #[arg(long, value_name = "SCENE,PACKET", value_parser = trace, hide = true)]
+    pub(crate) trace: Option<(String, Option<PacketSize>)>,
+}
+
+/// What of that paper is measured.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Wald2001Part {
+    /// Table 1: triangle tests.
+    Tests,
+    /// Table 2: visits of nodes in packets.
+    Overhead,
+    /// Table 3: rays through kd-trees and BVHs.
+    Structures,
+    /// Mailboxes of all kinds and sizes.
+    Mailboxes,
+    /// Figure 5: a terrain in more and more triangles.
+    Growth,
+    /// Accesses to memory, in valgrind: with SIMD4_LEVEL=avx2, since it knows no AVX-512.
+    Traffic,
+}
+
+impl Wald2001Part {
+    /// Those that are measured unless others are named.
+    pub(crate) const USUAL: [Wald2001Part; 5] = [
+        Wald2001Part::Tests,
+        Wald2001Part::Overhead,
+        Wald2001Part::Structures,
+        Wald2001Part::Mailboxes,
+        Wald2001Part::Growth,
+    ];
+}
+
+fn trace(text: &str) -> Result<(String, Option<PacketSize>), String> {
+    let (scene, packet) = text.rsplit_once(',').ok_or("expected a scene and a packet size")?;
+    let packet = match packet {
+        "none" => None,
+        "1" => Some(PacketSize::Single),
+        "4" => Some(PacketSize::Four),
+        "16" => Some(PacketSize::Sixteen),
+        "64" => Some(PacketSize::Large),
+        _ => return Err("expected none, 1, 4, 16 or 64".into()),
+    };
+    Ok((scene.to_owned(), packet))
 }
 
 /// Geimer and Müller, "A Cross-Platform Framework for Interactive Ray Tracing", 2003.

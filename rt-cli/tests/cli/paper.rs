@@ -10,8 +10,8 @@ use crate::support::{Scratch, levels};
 fn every_table_and_chart_of_a_paper_is_there() {
     let scratch = Scratch::with_room();
     let small = ["--triangles", "2000", "--quick", "--rounds", "1", "--charts", "."];
-    let args = [&["paper", "wald-2001", "room.obj"], &small[..]].concat();
-    let text = scratch.rt(&args).exits(0).text();
+    let args = ["paper", "wald-2001", "room.obj", "--json", "rows.json"];
+    let text = scratch.rt(&[&args[..], &small[..]].concat()).exits(0).text();
     for head in ["Table 1", "Table 2", "Table 3", "Mailboxes", "Figure 5"] {
         assert!(text.contains(head), "{head} in {text}");
     }
@@ -19,12 +19,72 @@ fn every_table_and_chart_of_a_paper_is_there() {
         let rows = text.lines().filter(|line| line.starts_with(scene)).count();
         assert!(rows > 0, "{scene} in {text}");
     }
-    for structure in ["bvh binned-sah", "kd binned", "kd sweep", "kd median"] {
+    for structure in ["bvh bvh8", "bvh skip", "kd binned", "kd sweep", "kd median"] {
         assert!(text.contains(structure), "{structure} in {text}");
     }
     for chart in ["mailboxes.svg", "growth.svg"] {
         assert!(scratch.bytes(chart).starts_with(b"<svg"), "{chart}");
     }
+
+    let rows = Rows::read(&scratch.bytes("rows.json"));
+    let what = ["test", "overhead", "trace", "mailbox", "two threads", "growth"];
+    assert_eq!(rows.of("what", |_| true), words(&what));
+    let of = |what: &'static str| move |row: &Value| row["what"] == what;
+    assert_eq!(rows.of("scene", of("overhead")), words(&["terrain:800", "room.obj"]));
+    let kinds = rows.of("kind", of("trace"));
+    assert_eq!(kinds, words(&["primary", "shadow", "diffuse"]));
+    let packets = rows.of("packet", |row| of("trace")(row) && row["accel"] == "kd");
+    assert!(["1", "4", "64"].iter().all(|packet| packets.contains(*packet)), "{packets:?}");
+    let mailboxes = rows.of("mailbox", of("mailbox"));
+    assert_eq!(mailboxes.len(), 16, "{mailboxes:?}");
+    for row in rows.0.iter().filter(|row| of("trace")(row)) {
+        for number in ["ns", "mrays_per_s", "nodes_per_ray", "bytes"] {
+            assert!(row[number].as_f64().unwrap() > 0.0, "{number} of {row}");
+        }
+    }
+}
+
+/// Measured rows.
+struct Rows(Vec<Value>);
+
+impl Rows {
+    fn read(json: &[u8]) -> Rows {
+        let json: Value = serde_json::from_slice(json).unwrap();
+        Rows(json["rows"].as_array().unwrap().clone())
+    }
+
+    /// What some of them have under that key.
+    fn of(&self, key: &str, which: impl Fn(&Value) -> bool) -> BTreeSet<String> {
+        let rows = self.0.iter().filter(|row| which(row));
+        rows.map(|row| row[key].to_string().replace('"', "")).collect()
+    }
+}
+
+fn words(words: &[&str]) -> BTreeSet<String> {
+    words.iter().map(|&word| word.to_owned()).collect()
+}
+
+#[test]
+fn a_part_of_a_paper_is_measured_alone() {
+    let scratch = Scratch::new();
+    let args = ["paper", "wald-2001", "--triangles", "2000", "--rounds", "1", "--json", "-"];
+    let json = scratch.rt(&[&args[..], &["--part", "overhead"]].concat()).exits(0).stdout;
+    let rows = Rows::read(&json);
+    assert_eq!(rows.of("what", |_| true), words(&["overhead"]));
+    scratch.rt(&[&args[..], &["--part", "everything"]].concat()).exits(2);
+}
+
+#[test]
+fn the_simulator_gets_the_rays_of_a_packet_or_none() {
+    let scratch = Scratch::with_room();
+    for trace in ["room.obj,none", "terrain:800,1", "room.obj,64"] {
+        let run = scratch.rt(&["paper", "wald-2001", "--trace", trace]).exits(0);
+        assert_eq!((run.text().as_str(), run.stderr.as_str()), ("", ""), "{trace}");
+    }
+    for trace in ["room.obj", "room.obj,5"] {
+        scratch.rt(&["paper", "wald-2001", "--trace", trace]).exits(2);
+    }
+    scratch.rt(&["paper", "wald-2001", "--trace", "missing.obj,4"]).exits(1);
 }
 
 const QUICK: [&str; 7] = ["paper", "geimer-mueller", "--quick", "-s", "16x16", "--rounds", "1"];
@@ -42,20 +102,15 @@ fn what_the_paper_compares_is_compared_and_its_figures_stand_beside() {
         assert!(table.contains(scene), "{scene} in\n{table}");
     }
 
-    let json: Value = serde_json::from_slice(&scratch.bytes("a.json")).unwrap();
-    let rows = json["rows"].as_array().unwrap();
-    let of = |what: &str, key: &str| -> BTreeSet<String> {
-        let rows = rows.iter().filter(|row| row["what"] == what);
-        rows.map(|row| row[key].to_string().replace('"', "")).collect()
-    };
-    let all = |words: &[&str]| words.iter().map(|&word| word.to_owned()).collect::<BTreeSet<_>>();
+    let rows = Rows::read(&scratch.bytes("a.json"));
+    let of = |what: &str, key: &str| rows.of(key, |row| row["what"] == what);
     assert_eq!(of("frame", "level"), levels().into_iter().collect());
-    assert_eq!(of("frame", "extent"), all(&["picture", "tile"]));
-    assert_eq!(of("trace", "order"), all(&["heap", "skip"]));
-    assert_eq!(of("trace", "sorted"), all(&["false", "true"]));
-    assert_eq!(of("trace", "builder"), all(&["insertion"]));
+    assert_eq!(of("frame", "extent"), words(&["picture", "tile"]));
+    assert_eq!(of("trace", "order"), words(&["heap", "skip"]));
+    assert_eq!(of("trace", "sorted"), words(&["false", "true"]));
+    assert_eq!(of("trace", "builder"), words(&["insertion"]));
     assert_eq!(of("trace", "box_test").len(), 4);
-    for row in rows {
+    for row in &rows.0 {
         assert!(row["ns"].as_f64().unwrap() > 0.0, "{row}");
     }
 }

@@ -55,6 +55,7 @@
 //! their planes are behind the ray or beyond all hits.
 
 mod build;
+mod large;
 pub mod layout;
 mod run;
 pub mod traverse;

@@ -4,11 +4,12 @@
 use simd4::scalar::f32x1;
 use simd4::{Scalar, Simd, SimdF32, dispatch};
 
-use super::KdTree;
 use super::traverse::{Stack, traverse};
+use super::{KdTree, large};
 use crate::accelerator::Visitor;
 use crate::mailbox::Mail;
 use crate::packet::{Ask, Either, Hits, Packet, Rays, Single};
+use crate::tri::Method;
 use crate::{Accelerator, Exec, PacketSize, Ray, Stats};
 
 impl Accelerator for KdTree {
@@ -32,7 +33,11 @@ impl Accelerator for KdTree {
     }
 
     fn exec(&self, asked: Exec) -> Exec {
-        asked.compiled()
+        let packet = match asked.packet {
+            PacketSize::Native | PacketSize::Large if self.is_for_large() => PacketSize::Large,
+            _ => return asked.compiled(),
+        };
+        Exec { packet, ..asked }
     }
 
     fn bytes(&self) -> usize {
@@ -49,10 +54,21 @@ struct Batch<'a> {
 }
 
 impl KdTree {
+    /// Large packets are for the default triangle test.
+    fn is_for_large(&self) -> bool {
+        self.plan.method == Method::default()
+    }
+
     fn run(&self, exec: Exec, batch: &mut Batch<'_>) {
         batch.hits.resize(batch.rays.len());
-        let exec = exec.compiled();
+        let exec = Accelerator::exec(self, exec);
         match exec.packet {
+            PacketSize::Large => {
+                let Batch { rays, any, hits, stats } = batch;
+                let mut done = Stats::default();
+                dispatch!(exec.level, s => large::trace(s, self, rays, *any, hits, &mut done));
+                **stats += done;
+            }
             PacketSize::Single => {
                 let Batch { rays, any, hits, stats } = batch;
                 let mut asks = (0..rays.len())

@@ -21,25 +21,40 @@ use super::layout::Node;
 
 /// Cells that are still to be visited. Each is the sibling of one above the present cell, so that
 /// there are fewer than the tree is deep.
-pub(super) struct Stack<V>([Entry<V>; MAX_DEPTH]);
+pub(super) struct Stack<V>([Cell<V>; MAX_DEPTH]);
 
+/// A cell, and the segments of the rays in it.
 #[derive(Clone, Copy)]
-struct Entry<V> {
-    node: Node,
-    near: V,
-    far: V,
+pub(super) struct Cell<V> {
+    pub(super) node: Node,
+    pub(super) near: V,
+    pub(super) far: V,
 }
 
 impl<V: SimdF32> Stack<V> {
     #[inline(always)]
     pub(super) fn new(s: V::Simd) -> Stack<V> {
         let zero = V::splat(s, 0.0);
-        Stack([Entry { node: Node::default(), near: zero, far: zero }; MAX_DEPTH])
+        Stack([Cell { node: Node::default(), near: zero, far: zero }; MAX_DEPTH])
     }
 }
 
-/// How the packet looks at the axes.
-pub(super) type Sight<V> = Result<Coherent<V>, Mixed<V>>;
+/// How the packet looks at the axes, and with that which kernels it is handed to.
+pub(super) trait Look<V: SimdF32> {
+    /// Tests a packet against one primitive.
+    fn test<Q: Query<V>>(
+        &self,
+        s: V::Simd,
+        tree: &KdTree,
+        slot: usize,
+        packet: &Packet<V>,
+        query: &mut Q,
+        stats: &mut Stats,
+    );
+}
+
+/// For any triangle test.
+type Sight<V> = Result<Coherent<V>, Mixed<V>>;
 
 /// Hands the primitives of every leaf that some ray may hit to their kernels.
 #[inline(always)]
@@ -102,13 +117,32 @@ fn one_way<V: SimdF32, Q: Query<V>>(
         far = (last * later).min(far);
     }
 
+    if near.le(far).any() {
+        let cell = Cell { node: tree.cells.pairs[0].0[0], near, far };
+        cells(s, tree, stack, mail, packet, (sight, signs), cell, query, stats);
+    }
+}
+
+/// What those rays meet in a cell and in all that follow within it.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "it is one function with its caller")]
+pub(super) fn cells<V: SimdF32, L: Look<V>, Q: Query<V>>(
+    s: V::Simd,
+    tree: &KdTree,
+    stack: &mut Stack<V>,
+    mail: &mut Mail<'_>,
+    packet: &Packet<V>,
+    (look, signs): (&L, [usize; 3]),
+    Cell { mut node, mut near, mut far }: Cell<V>,
+    query: &mut Q,
+    stats: &mut Stats,
+) {
+    let [sooner, later] = [V::splat(s, 1.0 - WIDER), V::splat(s, 1.0 + WIDER)];
+    let origin = [packet.origin.x, packet.origin.y, packet.origin.z];
+    let inv = [packet.inv.x, packet.inv.y, packet.inv.z];
     let stack = &mut stack.0;
     let mut top = 0;
     let mut visits = 0;
-    let mut node = tree.cells.pairs[0].0[0];
-    if near.le(far).none() {
-        return;
-    }
     'cells: loop {
         visits += 1;
         if let Some(axis) = node.axis() {
@@ -122,7 +156,7 @@ fn one_way<V: SimdF32, Q: Query<V>>(
             let (to_first, to_second) = (near.le(leave).any(), enter.le(far).any());
             if to_second {
                 if to_first {
-                    stack[top] = Entry { node: second, near: enter, far };
+                    stack[top] = Cell { node: second, near: enter, far };
                     top += 1;
                     (node, far) = (first, leave);
                 } else {
@@ -134,10 +168,10 @@ fn one_way<V: SimdF32, Q: Query<V>>(
             continue;
         }
         for &slot in &tree.cells.list[node.slots()] {
-            if mail.was_tested(slot) {
+            if mail.untested(slot, 1) == 0 {
                 stats.mailed += V::LANES as u64;
             } else {
-                tree.test(s, slot as usize, packet, sight, query, stats);
+                look.test(s, tree, slot as usize, packet, query, stats);
             }
         }
         if query.done(s) {
@@ -148,8 +182,8 @@ fn one_way<V: SimdF32, Q: Query<V>>(
                 break 'cells;
             }
             top -= 1;
-            let entry = &stack[top];
-            (node, near, far) = (entry.node, entry.near, entry.far.min(query.limit()));
+            let cell = &stack[top];
+            (node, near, far) = (cell.node, cell.near, cell.far.min(query.limit()));
             if near.le(far).any() {
                 break;
             }
@@ -168,40 +202,53 @@ impl KdTree {
             _ => Err(packet.mixed(s)),
         }
     }
+}
 
-    /// Tests a packet against one primitive.
+impl<V: SimdF32> Look<V> for Sight<V> {
     #[inline(always)]
-    fn test<V: SimdF32, Q: Query<V>>(
+    fn test<Q: Query<V>>(
         &self,
         s: V::Simd,
+        tree: &KdTree,
         slot: usize,
         packet: &Packet<V>,
-        sight: &Sight<V>,
         query: &mut Q,
         stats: &mut Stats,
     ) {
-        match sight {
-            Ok(frame) => {
-                self.test_with::<crate::tri::Watertight, V, _, Q>(
-                    s, slot, packet, frame, query, stats,
-                );
-            }
-            Err(frame) => with_kernel!(self.plan.method, K => {
-                self.test_with::<K, V, _, Q>(s, slot, packet, frame, query, stats);
+        match self {
+            Ok(frame) => frame.test(s, tree, slot, packet, query, stats),
+            Err(frame) => with_kernel!(tree.plan.method, K => {
+                test_with::<K, V, _, Q>(s, tree, slot, packet, frame, query, stats);
             }),
         }
     }
+}
 
+/// For the default triangle test.
+impl<V: SimdF32> Look<V> for Coherent<V> {
     #[inline(always)]
-    fn test_with<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
+    fn test<Q: Query<V>>(
         &self,
         s: V::Simd,
+        tree: &KdTree,
         slot: usize,
         packet: &Packet<V>,
-        frame: &F,
         query: &mut Q,
         stats: &mut Stats,
     ) {
-        self.store.intersect::<K, V, F, Q>(s, slot..slot + 1, packet, frame, query, stats);
+        test_with::<crate::tri::Watertight, V, _, Q>(s, tree, slot, packet, self, query, stats);
     }
+}
+
+#[inline(always)]
+fn test_with<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(
+    s: V::Simd,
+    tree: &KdTree,
+    slot: usize,
+    packet: &Packet<V>,
+    frame: &F,
+    query: &mut Q,
+    stats: &mut Stats,
+) {
+    tree.store.intersect::<K, V, F, Q>(s, slot..slot + 1, packet, frame, query, stats);
 }

@@ -304,6 +304,13 @@ impl<'a> LargePacket<'a> {
         (packet, self.frame(&packet, shear))
     }
 
+    /// The origins and the directions' reciprocals of the rays of a register, on one axis.
+    #[inline(always)]
+    pub(crate) fn along<V: SimdF32>(&self, s: V::Simd, g: usize, axis: usize) -> [V; 2] {
+        let (chunk, at, axis) = (&*self.chunk, g * V::LANES, axis % 3);
+        [get(s, &chunk.origin[axis], at), get(s, &chunk.inv[axis], at)]
+    }
+
     /// One ray in all lanes, and how it looks at the axes.
     #[inline(always)]
     pub fn ray<B: SimdF32>(&self, s: B::Simd, ray: usize) -> (Packet<B>, Coherent<B>) {

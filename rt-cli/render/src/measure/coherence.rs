@@ -53,6 +53,8 @@ pub fn packet_overhead(tree: &KdTree, rays: &Batches, exec: Exec, packets: &[usi
 pub struct MailRow {
     /// The mailbox.
     pub mailbox: Mailbox,
+    /// Level and packet size.
+    pub exec: Exec,
     /// The median time of all rays.
     pub time: Duration,
     /// The work.
@@ -83,7 +85,7 @@ pub fn mailboxes(
     }
     let row = |((&mailbox, mut times), stats): ((&Mailbox, Vec<Duration>), Stats)| {
         times.sort_unstable();
-        MailRow { mailbox, time: times[times.len() / 2], stats }
+        MailRow { mailbox, exec: tree.exec(exec), time: times[times.len() / 2], stats }
     };
     mailboxes.iter().zip(times).zip(works).map(row).collect()
 }

@@ -98,6 +98,14 @@ pub fn trace(rays: &Batches, ways: &[Way<'_>], rounds: usize) -> Vec<Row> {
     rows
 }
 
+/// Traces some rays, and that is all: for whoever watches from outside.
+pub fn once(world: &World, rays: &Batches, exec: Exec) {
+    let (mut answers, mut stats) = (Answers::default(), Stats::default());
+    for batch in &rays.batches {
+        answers.ask(world, exec, batch, rays.any, &mut stats);
+    }
+}
+
 /// What was asked of some rays: their closest hits, or whether there are any.
 #[derive(Default)]
 struct Answers {

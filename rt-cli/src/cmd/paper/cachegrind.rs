@@ -1,5 +1,5 @@
-//! Cache misses of a frame, counted by a simulator: valgrind's cachegrind, which runs this program
-//! again.
+//! Accesses to memory and cache misses, counted by a simulator: valgrind's cachegrind, which runs this
+//! program again.
 
 use std::process::Command;
 
@@ -14,10 +14,6 @@ tile at a time
                      first level: picture     tile   last level: picture     tile
 ";
 
-/// Misses of data in the first and the last level of caches.
-#[derive(Clone, Copy)]
-struct Misses([f64; 2]);
-
 /// Of frames alone: what it took to build the scene is taken off.
 pub(super) struct Compared {
     scene: String,
@@ -27,10 +23,10 @@ pub(super) struct Compared {
 
 /// Makes a frame each way in the simulator.
 pub(super) fn compare(scene: &str, size: (u32, u32)) -> Result<Compared, Error> {
-    let Misses(without) = simulate(scene, None, size)?;
+    let without = frame(scene, None, size)?;
     let frame = |extent| {
-        let Misses(with) = simulate(scene, Some(extent), size)?;
-        Ok::<_, Error>([with[0] - without[0], with[1] - without[1]])
+        let with = frame(scene, Some(extent), size)?;
+        Ok::<_, Error>([with.first - without.first, with.last - without.last])
     };
     let (picture, tile) = (frame(Extent::Picture)?, frame(Extent::Tile)?);
     Ok(Compared { scene: format!("spd:{scene}"), picture, tile })
@@ -58,19 +54,46 @@ impl Compared {
     }
 }
 
-fn simulate(
+fn frame(
     scene: &str,
     extent: Option<Extent>,
     (width, height): (u32, u32),
-) -> Result<Misses, Error> {
+) -> Result<Counts, Error> {
+    let size = format!("{width}x{height}");
+    let frame = format!("{scene},{}", extent.map_or("none", Extent::name));
+    simulate(&["paper", "geimer-mueller", "--size", &size, "--frame", &frame], None)
+}
+
+/// Sizes of caches of data, as `--D1` and `--LL` have them: bytes, ways, bytes a line.
+#[derive(Clone, Copy)]
+pub(super) struct Caches([&'static str; 2]);
+
+/// As the Pentium III at 800 MHz had them.
+pub(super) const PENTIUM_III: Caches = Caches(["16384,4,32", "262144,8,32"]);
+
+/// As a core of today has for itself.
+pub(super) const TODAY: Caches = Caches(["32768,8,64", "1048576,16,64"]);
+
+/// What a run of this program did to memory.
+#[derive(Clone, Copy)]
+pub(super) struct Counts {
+    pub(super) accesses: f64,
+    /// Misses of data in the first and the last level of caches.
+    pub(super) first: f64,
+    pub(super) last: f64,
+}
+
+/// Runs this program in the simulator, with those caches or with this machine's.
+pub(super) fn simulate(args: &[&str], caches: Option<Caches>) -> Result<Counts, Error> {
     let failed = |why: String| Error::Cachegrind(why);
     let this = std::env::current_exe().map_err(|error| failed(error.to_string()))?;
-    let frame = format!("{scene},{}", extent.map_or("none", Extent::name));
+    let caches =
+        caches.map(|Caches([first, last])| [format!("--D1={first}"), format!("--LL={last}")]);
     let run = Command::new("valgrind")
         .args(["--tool=cachegrind", "--cache-sim=yes", "--cachegrind-out-file=/dev/null"])
+        .args(caches.into_iter().flatten())
         .arg(this)
-        .args(["paper", "geimer-mueller", "--size", &format!("{width}x{height}")])
-        .args(["--frame", &frame])
+        .args(args)
         .output()
         .map_err(|error| failed(format!("cannot run valgrind: {error}")))?;
     let talk = String::from_utf8_lossy(&run.stderr);
@@ -78,7 +101,11 @@ fn simulate(
         return Err(failed(talk.into_owned()));
     }
     let count = |what: &str| parse(&talk, what).ok_or_else(|| failed(format!("{what}?\n{talk}")));
-    Ok(Misses([count("D1  misses:")?, count("LLd misses:")?]))
+    Ok(Counts {
+        accesses: count("D   refs:")?,
+        first: count("D1  misses:")?,
+        last: count("LLd misses:")?,
+    })
 }
 
 /// The number after some words: `==1== D1  misses:  1,234  ( 1,000 rd  + 234 wr)`.
@@ -95,6 +122,7 @@ mod tests {
     #[test]
     fn counts_are_read() {
         let talk = "==1== D   refs:  9\n==1== D1  misses:      1,234,567  ( 1,000 rd   + 234 wr)\n";
+        assert_eq!(parse(talk, "D   refs:"), Some(9.0));
         assert_eq!(parse(talk, "D1  misses:"), Some(1_234_567.0));
         assert_eq!(parse(talk, "LLd misses:"), None);
     }
