@@ -26,6 +26,8 @@ fn every_way_to_work_gives_the_same_bytes() {
                 for level in &levels {
                     ways.extend(["1", "4", "8"].map(|size| vec!["--isa", level, "--packet", size]));
                     ways.push(vec!["--isa", level, "--accel", "brute", "-j", "3"]);
+                    let kd = |size| vec!["--isa", level, "--packet", size, "--accel", "kd"];
+                    ways.extend(["1", "4", "8", "16", "64"].map(kd));
                 }
             }
             for way in ways {
