@@ -25,8 +25,8 @@ pub enum PacketSize {
     Eight,
     /// Sixteen rays.
     Sixteen,
-    /// As many as go together, up to 64: over [wide nodes](crate::Layout) alone, where it is the
-    /// native size.
+    /// As many as go together, up to 64: over [wide nodes](crate::Layout), where it is the native size,
+    /// and in [kd-trees](crate::KdTree) for the default triangle test.
     Large,
 }
 

@@ -18,8 +18,8 @@ pub(crate) struct MachineArgs {
     #[arg(long, value_name = "LEVEL", default_value = "auto",
           value_parser = level_names())]
     isa: String,
-    /// Rays that go together: native is up to 64 over wide nodes and in kd-trees, and elsewhere as many
-    /// as a register has lanes.
+    /// Rays that go together: native is up to 64 over wide nodes, and elsewhere as many as a register
+    /// has lanes.
     #[arg(long, value_name = "SIZE", default_value = "native",
           value_parser = ["native", "1", "4", "8", "16", "64"])]
     packet: String,

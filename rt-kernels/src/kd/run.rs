@@ -34,7 +34,7 @@ impl Accelerator for KdTree {
 
     fn exec(&self, asked: Exec) -> Exec {
         let packet = match asked.packet {
-            PacketSize::Native | PacketSize::Large if self.is_for_large() => PacketSize::Large,
+            PacketSize::Large if self.is_for_large() => PacketSize::Large,
             _ => return asked.compiled(),
         };
         Exec { packet, ..asked }

@@ -19,7 +19,7 @@ pub(super) fn run(paper: &mut Paper<'_>) -> Result<(), Error> {
     ))?;
     let level = paper.level;
     let single = Exec { level, packet: PacketSize::Single };
-    let register = Exec { level, packet: PacketSize::Sixteen };
+    let large = Exec { level, packet: PacketSize::Large };
     let ordinary = Exec::at(level);
     let mut lines = Vec::new();
     for scene in paper.scenes(std::iter::once(COHERENT[2].min(paper.most)))? {
@@ -30,7 +30,7 @@ pub(super) fn run(paper: &mut Paper<'_>) -> Result<(), Error> {
         let mut kinds = vec![Mailbox::None, Mailbox::Stamps, Mailbox::Inverse];
         kinds.extend(TABLES.map(Mailbox::Hashed));
         for (rays, exec) in
-            [(&primary, single), (&primary, register), (&primary, ordinary), (&diffuse, single)]
+            [(&primary, single), (&primary, ordinary), (&primary, large), (&diffuse, single)]
         {
             let rows = measure::mailboxes(&tree, &kinds, rays, exec, paper.rounds());
             let packet = rows[0].exec.lanes();

@@ -85,7 +85,7 @@ fn scene(paper: &mut Paper<'_>, scene: Scene, us: Option<f64>) -> Result<(), Err
         .collect::<Result<Vec<_>, _>>()?;
     let level = paper.level;
     let four = Exec { level: four_lanes(level), packet: PacketSize::Four };
-    let execs = [PacketSize::Single, PacketSize::Four, PacketSize::Sixteen, PacketSize::Large]
+    let execs = [PacketSize::Single, PacketSize::Four, PacketSize::Native, PacketSize::Large]
         .map(|packet| if packet == four.packet { four } else { Exec { level, packet } });
     let many = Exec::at(level);
     let job = job(&scene, &worlds[0], (512, 512), many);
