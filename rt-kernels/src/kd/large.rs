@@ -89,7 +89,7 @@ pub(super) fn trace<S: Simd>(
     let (mut chunk, mut buckets) = (Box::new(Chunk::default()), Buckets::default());
     let mut first = 0;
     loop {
-        let waited = buckets.take(rays, first >= rays.len());
+        let waited = buckets.take(rays, LARGE, first >= rays.len());
         if waited {
             chunk.load::<S::f32s>(s, buckets.rays(), 0, LARGE);
         } else if first < rays.len() {
