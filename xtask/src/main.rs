@@ -218,7 +218,7 @@ mod tests {
             (&["ci", "--target", "vax"], "\"vax\""),
             (&["cross", "-p", "simd4"], "--target"),
             (&["tidy", "--fast"], "tidy"),
-            (&["fuzz", "png"], "\"png\""),
+            (&["fuzz", "gif"], "\"gif\""),
             (&["coverage", "--html"], "\"--html\""),
             (&["cross", "-p", "simd4", "--target"], "--target"),
             (&["bless", "--fast"], "\"--fast\""),
