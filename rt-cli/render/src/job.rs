@@ -34,6 +34,23 @@ pub struct Job {
 }
 
 impl Job {
+    /// What is seen, and nothing else: of primary rays on one thread.
+    pub fn seen(view: View, size: (u32, u32), exec: Exec) -> Job {
+        Job {
+            size,
+            crop: None,
+            view,
+            lights: Vec::new(),
+            background: Vec3::ZERO,
+            integrator: Integrator::Depth,
+            samples: 1,
+            depth: 0,
+            shadows: false,
+            exec,
+            threads: 1,
+        }
+    }
+
     /// What is rendered: the crop or all.
     pub fn area(&self) -> Crop {
         let (width, height) = self.size;

@@ -4,13 +4,10 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::time::Duration;
 
-use glam::Vec3;
 use rt_render::World;
 use rt_render::measure::{self, Row, Way};
-use rt_render::{
-    AccelKind, Builder, Exec, Integrator, Job, Layout, Level, Method, PacketSize, Plan,
-};
-use rt_scene::{Scene, View};
+use rt_render::{AccelKind, Builder, Exec, Job, Layout, Level, Method, PacketSize, Plan};
+use rt_scene::Scene;
 use serde_json::{Value, json};
 
 use super::render::default_view;
@@ -42,7 +39,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Error> {
         let scene_name = scene.name.clone();
         let worlds = worlds(&scene, args, compared)?;
         let view = view.unwrap_or_else(|| default_view(worlds[0].world.bounds(), args.size));
-        let job = job(view, args.size, execs[0]);
+        let job = Job::seen(view, args.size, execs[0]);
         let (mut builts, mut ways) = (Vec::new(), Vec::new());
         for built in &worlds {
             let world = &built.world;
@@ -86,23 +83,6 @@ fn name_width(name: &OsStr) -> usize {
     let computed = name.as_encoded_bytes().starts_with(b"spd:");
     let size = if computed { ":10".len() } else { 0 };
     Path::new(name).file_name().map_or(0, |base| base.to_string_lossy().chars().count()) + size
-}
-
-/// The primary rays of a picture; of the rest nothing matters.
-fn job(view: View, size: (u32, u32), exec: Exec) -> Job {
-    Job {
-        size,
-        crop: None,
-        view,
-        lights: Vec::new(),
-        background: Vec3::ZERO,
-        integrator: Integrator::Depth,
-        samples: 1,
-        depth: 0,
-        shadows: false,
-        exec,
-        threads: 1,
-    }
 }
 
 fn mrays_per_s(row: &Row) -> f64 {

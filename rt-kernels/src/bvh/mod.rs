@@ -123,23 +123,24 @@ impl Bvh {
     /// compiles it.)
     #[inline]
     pub fn closest_uncounted(&self, exec: Exec, rays: &Rays, hits: &mut Hits) {
-        match &self.array {
-            Array::Skip(array) => trace::trace(array, exec, rays, false, hits, &mut NoStats),
-            Array::Bvh4(array) => array.trace(exec, rays, false, hits, &mut NoStats),
-            Array::Bvh8(array) => array.trace(exec, rays, false, hits, &mut NoStats),
-        }
+        self.uncounted(exec, rays, false, hits);
     }
 
     /// As [`any`](Accelerator::any), and counts nothing. (Inlined, as above.)
     #[inline]
     pub fn any_uncounted(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>) {
         let mut hits = Hits::new();
-        match &self.array {
-            Array::Skip(array) => trace::trace(array, exec, rays, true, &mut hits, &mut NoStats),
-            Array::Bvh4(array) => array.trace(exec, rays, true, &mut hits, &mut NoStats),
-            Array::Bvh8(array) => array.trace(exec, rays, true, &mut hits, &mut NoStats),
-        }
+        self.uncounted(exec, rays, true, &mut hits);
         hits.found(found);
+    }
+
+    #[inline]
+    fn uncounted(&self, exec: Exec, rays: &Rays, any: bool, hits: &mut Hits) {
+        match &self.array {
+            Array::Skip(array) => trace::trace(array, exec, rays, any, hits, &mut NoStats),
+            Array::Bvh4(array) => array.trace(exec, rays, any, hits, &mut NoStats),
+            Array::Bvh8(array) => array.trace(exec, rays, any, hits, &mut NoStats),
+        }
     }
 
     /// What it was built by: the layout is that which it has.

@@ -62,13 +62,12 @@ fn noise(x: f32, z: f32, octave: u32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
     use rt_kernels::Exec;
 
     use super::super::raster::ZBuffer;
     use super::*;
     use crate::measure::primary;
-    use crate::{AccelKind, Integrator, Job, World};
+    use crate::{AccelKind, Job, World};
     use rt_kernels::Stats;
 
     /// The rasteriser draws where rays hit, but for what rounding says of edges against the sky.
@@ -76,19 +75,7 @@ mod tests {
     fn rays_and_the_rasteriser_see_the_same() {
         let scene = terrain(5_000);
         let exec = Exec::best().expect("a level");
-        let job = Job {
-            size: (128, 96),
-            crop: None,
-            view: scene.view.expect("it has one"),
-            lights: Vec::new(),
-            background: Vec3::ZERO,
-            integrator: Integrator::Depth,
-            samples: 1,
-            depth: 0,
-            shadows: false,
-            exec,
-            threads: 1,
-        };
+        let job = Job::seen(scene.view.expect("it has one"), (128, 96), exec);
         let world = World::build(scene, AccelKind::Bvh, 1).expect("in range");
         let mut buffer = ZBuffer::new(job.size);
         buffer.draw(&world, &job).expect("a camera");

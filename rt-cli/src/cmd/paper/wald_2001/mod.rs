@@ -12,9 +12,8 @@ mod traffic;
 
 use std::path::Path;
 
-use glam::Vec3;
 use rt_render::measure::terrain;
-use rt_render::{AccelKind, Exec, Integrator, Job, KdBuilder, Level, Mailbox, World};
+use rt_render::{AccelKind, Exec, Job, KdBuilder, Level, Mailbox, World};
 use rt_scene::Scene;
 use serde_json::{Value, json};
 
@@ -95,19 +94,7 @@ impl Paper<'_> {
 /// Rays of the paper's pictures: nothing but what is seen.
 fn job(scene: &Scene, world: &World, size: (u32, u32), exec: Exec) -> Job {
     let view = scene.view.unwrap_or_else(|| default_view(world.bounds(), size));
-    Job {
-        size,
-        crop: None,
-        view,
-        lights: Vec::new(),
-        background: Vec3::ZERO,
-        integrator: Integrator::Depth,
-        samples: 1,
-        depth: 0,
-        shadows: false,
-        exec,
-        threads: 1,
-    }
+    Job::seen(view, size, exec)
 }
 
 fn kd(builder: KdBuilder) -> AccelKind {
