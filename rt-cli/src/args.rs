@@ -281,15 +281,16 @@ pub(crate) struct BenchArgs {
     /// Width and height in pixels.
     #[arg(short, long, value_name = "WxH", value_parser = size, default_value = "512x512")]
     pub(crate) size: (u32, u32),
-    /// Compare the triangle tests of --kernel at the best level, instead of levels.
+    /// Compare the triangle tests of --kernel at the best level, instead of levels: over skip arrays,
+    /// which have all, or with another --accel.
     #[arg(long)]
     pub(crate) kernels: bool,
     /// Compare the builders of --builder at the best level, instead of levels.
-    #[arg(long, conflicts_with_all = ["kernels", "builder"])]
+    #[arg(long, conflicts_with_all = ["kernels", "builder", "accel"])]
     pub(crate) builders: bool,
     /// Compare the layouts of --layout at the best level, instead of levels: with primary rays, and
     /// with those that matt surfaces scatter.
-    #[arg(long, conflicts_with_all = ["kernels", "builders", "layout"])]
+    #[arg(long, conflicts_with_all = ["kernels", "builders", "layout", "accel"])]
     pub(crate) layouts: bool,
     #[command(flatten)]
     pub(crate) build: BuildArgs,

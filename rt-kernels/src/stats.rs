@@ -37,6 +37,9 @@ pub struct Stats {
     /// Rays that went on into those, summed: by node visits, how full packets are. Over a skip array
     /// a packet visits nodes that no ray goes on into; the kd-tree does not count it.
     pub active_rays: u64,
+    /// Rays that went on by themselves from somewhere, because too few went with them; all if no rays
+    /// go together. Packets of a register's size never part.
+    pub rays_alone: u64,
     /// Tests of one ray against one node's box.
     pub box_tests: u64,
     /// Tests of one ray against one triangle.
@@ -60,6 +63,7 @@ impl AddAssign for Stats {
     fn add_assign(&mut self, other: Stats) {
         self.node_visits += other.node_visits;
         self.active_rays += other.active_rays;
+        self.rays_alone += other.rays_alone;
         self.box_tests += other.box_tests;
         self.triangle_tests += other.triangle_tests;
         self.sphere_tests += other.sphere_tests;

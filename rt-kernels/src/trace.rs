@@ -283,5 +283,8 @@ fn packets<V: SimdF32, T: Traverse, K: TriangleKernel, C: Counters>(
         batch.packet::<V>(s, &Packet::load(s, rays, first), first, &mut done);
         first += V::LANES;
     }
+    if V::LANES == 1 {
+        done.count(|stats| stats.rays_alone += rays.len() as u64);
+    }
     *stats += done;
 }

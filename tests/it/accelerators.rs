@@ -13,7 +13,7 @@ use rt_tests::oracle::entry;
 use rt_tests::random::{Random, power};
 use rt_tests::strategies::{RayPlan, config, is_in_range, is_valid, ray, scene};
 use rt_tests::trace::{
-    Bits, any as found_any, bits, closest, closest_bits, every_kd_plan, every_plan, ways,
+    Bits, any as found_any, bits, closest, closest_bits, every_kd_plan, every_plan, every_way, ways,
 };
 use rt_tests::{aim, rays};
 use simd4::Level;
@@ -24,23 +24,28 @@ fn plainest() -> Exec {
     Exec { level, packet: PacketSize::Single }
 }
 
-/// Packets of sixteen at every level, which there are over wide nodes alone.
-fn sixteens() -> Vec<Exec> {
-    Level::available().map(|level| Exec { level, packet: PacketSize::Sixteen }).collect()
-}
-
 /// The most unlike it.
 fn widest() -> Exec {
     Exec { packet: PacketSize::Eight, ..Exec::best().expect("a level") }
 }
 
+/// Of where not all ways are tried every so many: a number prime to theirs.
+const SOME: usize = 11;
+
+/// The plainest way, the widest, and some of all others: which, hangs on `turn`.
+fn some_ways(turn: usize) -> Vec<Exec> {
+    let some = every_way().into_iter().skip(turn % SOME).step_by(SOME);
+    [plainest(), widest()].into_iter().chain(some).collect()
+}
+
 /// Checks closest and any of all accelerators, all ways and with every triangle test, against the
-/// plainest, and returns that with the default test.
-fn one_answer(scene: &Primitives, rays: &Rays) -> Vec<Option<rt_kernels::Hit>> {
+/// plainest, and returns that with the default test. From turn to turn every builder comes to be run
+/// every way.
+fn one_answer(scene: &Primitives, rays: &Rays, turn: usize) -> Vec<Option<rt_kernels::Hit>> {
     let mut methods = Method::ALL.into_iter();
     let default = methods.next().expect("there is a default");
-    let hits = one_answer_with(default, scene, rays);
-    methods.for_each(|method| drop(one_answer_with(method, scene, rays)));
+    let hits = one_answer_with(default, scene, rays, turn);
+    methods.for_each(|method| drop(one_answer_with(method, scene, rays, turn)));
     hits
 }
 
@@ -48,6 +53,7 @@ fn one_answer_with(
     method: Method,
     scene: &Primitives,
     rays: &Rays,
+    turn: usize,
 ) -> Vec<Option<rt_kernels::Hit>> {
     let brute = Brute::build_with(scene, method).expect("a scene in range");
     let hits = closest(&brute, plainest(), rays);
@@ -58,12 +64,8 @@ fn one_answer_with(
     }
     for plan in every_plan(method) {
         let bvh = Bvh::build_with(scene, plan, &Sequential).expect("a scene in range");
-        // What a level and a packet size change does not depend on the builder.
-        let execs = match (plan.builder == Builder::default(), plan.layout) {
-            (true, Layout::Skip) => ways(),
-            (true, _) => [ways(), sixteens()].concat(),
-            _ => vec![plainest(), widest()],
-        };
+        let default = plan.builder == Builder::default();
+        let execs = if default { every_way() } else { some_ways(turn) };
         for exec in execs {
             let (builder, layout) = (plan.builder.name(), plan.layout.name());
             same(&want, &format!("{name}, {builder}, {layout}"), &bvh, exec, rays);
@@ -72,8 +74,7 @@ fn one_answer_with(
     for plan in every_kd_plan(method) {
         let kd = KdTree::build_with(scene, plan, &Sequential).expect("a scene in range");
         let default = plan.builder == KdBuilder::default() && plan.mailbox == Mailbox::default();
-        let large = Exec { packet: PacketSize::Large, ..widest() };
-        let execs = if default { ways() } else { vec![plainest(), widest(), large] };
+        let execs = if default { every_way() } else { some_ways(turn) };
         for exec in execs {
             same(&want, &format!("{plan:?}"), &kd, exec, rays);
         }
@@ -127,7 +128,8 @@ fn cut(ray: Ray, t: f32) -> [Ray; 4] {
 fn closest_and_any_are_one() {
     proptest!(config(), |(scene in scene(), plans in prop::collection::vec(ray(), 1..40))| {
         let aimed: Rays = plans.iter().map(|plan: &RayPlan| plan.aim(&scene)).collect();
-        let hits = one_answer(&scene, &aimed);
+        let turn = scene.len() + plans.len();
+        let hits = one_answer(&scene, &aimed, turn);
 
         let mut cuts = Rays::new();
         let mut want = Vec::new();
@@ -144,7 +146,7 @@ fn closest_and_any_are_one() {
                 want.push(*hit);
             }
         }
-        for (cut, want) in one_answer(&scene, &cuts).chunks(4).zip(want) {
+        for (cut, want) in one_answer(&scene, &cuts, turn).chunks(4).zip(want) {
             prop_assert_eq!(cut[0].map(bits), Some(bits(want)), "the interval's end is in it");
             prop_assert_eq!(cut[1], None, "nothing is closer than the closest hit");
             prop_assert!(cut[3].is_none_or(|hit| hit.t > want.t), "{:?} is before the start", cut[3]);
@@ -199,7 +201,7 @@ fn meshes_aimed_at_edges_and_vertices() {
         ("spiky and flat", spiky.clone().map(|v| v * flat), flat),
         ("spiky and flat, aside", spiky.map(|v| v * 100.0 * flat + Vec3::X * 1000.0), 100.0 * flat),
     ];
-    for (name, mesh, shape) in meshes {
+    for (turn, (name, mesh, shape)) in meshes.into_iter().enumerate() {
         let (scene, edges) = (mesh.primitives(), mesh.edges());
         let rays: Rays = (0..rays(4_000))
             .map(|i| {
@@ -209,7 +211,7 @@ fn meshes_aimed_at_edges_and_vertices() {
                 aim::at(mesh.vertices[0] + random.in_cube() * shape * reach, target)
             })
             .collect();
-        let hits = one_answer(&scene, &rays);
+        let hits = one_answer(&scene, &rays, turn);
         let share = hits.iter().flatten().count() as f64 / hits.len() as f64;
         assert!(share > 0.5, "{name}: only {share} of the rays hit");
     }
@@ -246,7 +248,7 @@ fn a_screen_hides_the_boxes_behind_it() {
                 triangles: vec![screen, screen, screen, screen, needle],
                 ..Primitives::default()
             };
-            one_answer(&scene, &[ray].into_iter().collect());
+            one_answer(&scene, &[ray].into_iter().collect(), tried as usize);
         }
     }
     assert!(tried > 0, "no hit is held at the entry into its own box");

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use glam::Vec3;
+use rt_kernels::tri::Method;
 use rt_render::{
     AccelKind, Builder, Exec, Film, Integrator, Job, KdBuilder, Layout, Level, Mailbox, Plan,
     Silent, World, fitted_view, render,
@@ -11,7 +12,7 @@ use rt_render::{
 use rt_scene::Scene;
 use rt_tests::hash::fnv1a;
 use rt_tests::scenes::{bumpy, glass, room};
-use rt_tests::trace::ways;
+use rt_tests::trace::{every_plan, every_way, ways};
 
 /// Neither side is a multiple of the tiles', and no tile is alone.
 const SIZE: (u32, u32) = (75, 50);
@@ -135,6 +136,34 @@ fn every_layout_makes_the_same_picture() {
             }
         }
     }
+}
+
+/// Scenes of hundreds of thousands of triangles, where they are there: every builder in every layout,
+/// in packets of every size, at every level.
+#[test]
+#[ignore = "takes minutes, and scenes that are not of this repository"]
+fn real_scenes_look_the_same_every_way() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/scenes");
+    let best = Exec::best().expect("a level");
+    let mut seen = 0;
+    for name in ["obj/bunny.obj", "obj/conference.obj", "obj/teapot.obj", "spd/gears_s2.nff"] {
+        let Ok(scene) = rt_scene::open(folder.join(name)) else {
+            println!("skipped: there is no {name}");
+            continue;
+        };
+        let kd = world(&scene, kd(KdBuilder::default()), 1);
+        let want = picture(&kd, &job(&kd, &scene, Integrator::Whitted, best));
+        for plan in every_plan(Method::default()) {
+            let world = World::build_with(scene.clone(), AccelKind::Bvh, plan, 2)
+                .expect("a scene that can be rendered");
+            for exec in every_way() {
+                let job = job(&world, &scene, Integrator::Whitted, exec);
+                assert!(picture(&world, &job) == want, "{name} differs: {plan:?}, {exec:?}");
+            }
+        }
+        seen += 1;
+    }
+    assert!(seen > 0, "no scene in {}", folder.display());
 }
 
 /// The file holds what was seen and found good, once for all architectures.

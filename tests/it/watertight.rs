@@ -4,11 +4,12 @@
 //! watertight leaks one ray in twenty: a control shows that these rays find such leaks.
 
 use glam::Vec3;
-use rt_kernels::{Builder, Bvh, Exec, Layout, Plan, Ray, Rays, Sequential};
+use rt_kernels::tri::Method;
+use rt_kernels::{Bvh, Exec, Ray, Rays, Sequential};
 use rt_tests::mesh::Mesh;
 use rt_tests::oracle::{ROUNDOFF, moller_trumbore};
 use rt_tests::random::Random;
-use rt_tests::trace::{any, closest};
+use rt_tests::trace::{any, closest, every_plan, every_way};
 use rt_tests::{aim, rays};
 use simd4::Level;
 
@@ -182,26 +183,24 @@ fn spiky_ball_far_away() {
     vessel(1.0, Vec3::new(0.0, 1000.0, -1e5), 0.05).million("spiky, far");
 }
 
+/// Every builder in every layout, in packets of every size, at every level.
 #[test]
-fn spiky_ball_of_every_other_builder() {
+fn spiky_ball_of_every_plan() {
     let mut ball = vessel(1.0, Vec3::ZERO, 0.05);
     let scene = ball.mesh.primitives();
-    let scattered = ball.scattered(rays(200_000), &mut Random::new(13));
-    for builder in &Builder::ALL[1..] {
-        let plan = Plan { builder: *builder, ..Plan::default() };
+    let mut random = Random::new(13);
+    let (scattered, swept) =
+        (ball.scattered(rays(10_000), &mut random), ball.swept(rays(10_000), &mut random));
+    ball.has_teeth("every plan", &scattered);
+    for plan in every_plan(Method::default()) {
         ball.bvh = Bvh::build_with(&scene, plan, &Sequential).expect("in range");
-        ball.holds(builder.name(), &scattered);
-    }
-}
-
-#[test]
-fn spiky_ball_of_every_other_layout() {
-    let mut ball = vessel(1.0, Vec3::ZERO, 0.05);
-    let scene = ball.mesh.primitives();
-    let scattered = ball.scattered(rays(200_000), &mut Random::new(14));
-    for layout in Layout::ALL.into_iter().filter(|layout| *layout != Layout::default()) {
-        let plan = Plan { layout, ..Plan::default() };
-        ball.bvh = Bvh::build_with(&scene, plan, &Sequential).expect("in range");
-        ball.holds(layout.name(), &scattered);
+        for (exec, rays) in
+            every_way().into_iter().flat_map(|exec| [(exec, &scattered), (exec, &swept)])
+        {
+            let found = any(&ball.bvh, exec, rays);
+            let hits = closest(&ball.bvh, exec, rays);
+            let leak = (0..rays.len()).find(|&i| !found[i] || hits[i].is_none());
+            assert_eq!(leak.map(|i| rays.get(i)), None, "{plan:?}, {exec:?}");
+        }
     }
 }

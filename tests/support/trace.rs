@@ -5,11 +5,20 @@ use rt_kernels::{Accelerator, Builder, Exec, Hit, Hits, Join, KdBuilder, KdPlan,
 use rt_kernels::{PacketSize, Plan, Rays, Stats};
 use simd4::Level;
 
-/// Every level of this machine with every packet size.
+/// Every level of this machine with every packet size that all accelerators have.
 pub fn ways() -> Vec<Exec> {
-    let packets = [PacketSize::Single, PacketSize::Native, PacketSize::Four, PacketSize::Eight];
+    ways_of(&[PacketSize::Single, PacketSize::Native, PacketSize::Four, PacketSize::Eight])
+}
+
+/// Every level of this machine with every packet size; what an accelerator does not have comes to
+/// another that it has.
+pub fn every_way() -> Vec<Exec> {
+    [ways(), ways_of(&[PacketSize::Sixteen, PacketSize::Large])].concat()
+}
+
+fn ways_of(packets: &[PacketSize]) -> Vec<Exec> {
     Level::available()
-        .flat_map(|level| packets.into_iter().map(move |packet| Exec { level, packet }))
+        .flat_map(|level| packets.iter().map(move |&packet| Exec { level, packet }))
         .collect()
 }
 

@@ -26,12 +26,6 @@ pub(crate) struct MachineArgs {
     /// Threads to use [default: one a core].
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// What finds the hits.
-    #[arg(long, value_enum, value_name = "KIND", default_value_t)]
-    accel: AccelArg,
-    /// How the kd-tree is built.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t)]
-    kd_builder: KdBuilderArg,
     #[command(flatten)]
     build: BuildArgs,
 }
@@ -39,6 +33,12 @@ pub(crate) struct MachineArgs {
 /// How the acceleration structure is built.
 #[derive(Group)]
 pub(crate) struct BuildArgs {
+    /// What finds the hits.
+    #[arg(long, value_enum, value_name = "KIND", default_value_t)]
+    accel: AccelArg,
+    /// How the kd-tree is built.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t)]
+    kd_builder: KdBuilderArg,
     /// How the BVH is built.
     #[arg(long, value_enum, value_name = "NAME", default_value_t)]
     builder: BuilderArg,
@@ -49,6 +49,22 @@ pub(crate) struct BuildArgs {
 }
 
 impl BuildArgs {
+    /// The kind of acceleration structure.
+    pub(crate) fn accel(&self) -> AccelKind {
+        match self.accel {
+            AccelArg::Bvh => AccelKind::Bvh,
+            AccelArg::Kd => {
+                let builder = match self.kd_builder {
+                    KdBuilderArg::Sweep => KdBuilder::Sweep,
+                    KdBuilderArg::Binned => KdBuilder::Binned,
+                    KdBuilderArg::Median => KdBuilder::Median,
+                };
+                AccelKind::Kd { builder, mailbox: Mailbox::default() }
+            }
+            AccelArg::Brute => AccelKind::Brute,
+        }
+    }
+
     /// Builder and layout, for the default triangle test.
     pub(crate) fn plan(&self) -> Plan {
         let builder = match self.builder {
@@ -94,18 +110,7 @@ impl MachineArgs {
 
     /// The kind of acceleration structure.
     pub(crate) fn accel(&self) -> AccelKind {
-        match self.accel {
-            AccelArg::Bvh => AccelKind::Bvh,
-            AccelArg::Kd => {
-                let builder = match self.kd_builder {
-                    KdBuilderArg::Sweep => KdBuilder::Sweep,
-                    KdBuilderArg::Binned => KdBuilder::Binned,
-                    KdBuilderArg::Median => KdBuilder::Median,
-                };
-                AccelKind::Kd { builder, mailbox: Mailbox::default() }
-            }
-            AccelArg::Brute => AccelKind::Brute,
-        }
+        self.build.accel()
     }
 
     /// How it is built, if it is a BVH, for the default triangle test.

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use rt_render::World;
 use rt_render::measure::{self, Row, Way};
-use rt_render::{AccelKind, Builder, Exec, Job, Layout, Level, Method, PacketSize, Plan};
+use rt_render::{Builder, Exec, Job, Layout, Level, Method, PacketSize, Plan};
 use rt_scene::Scene;
 use serde_json::{Value, json};
 
@@ -126,7 +126,7 @@ fn worlds(scene: &Scene, args: &BenchArgs, compared: Compared) -> Result<Vec<Bui
     for _ in 0..rounds {
         worlds.clear();
         for (&plan, times) in choices.iter().zip(&mut times) {
-            let world = World::build_with(scene.clone(), AccelKind::Bvh, plan, 1)?;
+            let world = World::build_with(scene.clone(), args.build.accel(), plan, 1)?;
             times.push(world.build_time());
             worlds.push(world);
         }

@@ -103,11 +103,13 @@ impl Rendered<'_> {
             ("primary rays", made.primary),
             ("shadow rays", made.shadow),
             ("reflected rays", made.reflection),
+            ("refracted rays", made.refraction),
         ];
         let rays = kinds.into_iter().filter(|(_, report)| report.rays > 0);
         let mut lines: Vec<_> = rays
             .map(|(kind, report)| {
-                format!("{kind}: {}, traced in {}", report.rays, time(report.time))
+                let (time, alone) = (time(report.time), report.alone);
+                format!("{kind}: {}, traced in {time}; {alone} went on alone", report.rays)
             })
             .collect();
         let each = |count: u64| count as f64 / made.all().rays.max(1) as f64;
@@ -161,6 +163,12 @@ impl Rendered<'_> {
                 "shadow": made.shadow.rays,
                 "reflection": made.reflection.rays,
                 "refraction": made.refraction.rays,
+            },
+            "rays_alone": {
+                "primary": made.primary.alone,
+                "shadow": made.shadow.alone,
+                "reflection": made.reflection.alone,
+                "refraction": made.refraction.alone,
             },
             "mrays_per_s": speed(made.all()),
             "mrays_per_s_by_kind": {

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::support::{BUILDERS, LAYOUTS, Scratch, keys, levels};
 
-const KEYS: [&str; 29] = [
+const KEYS: [&str; 30] = [
     "scene",
     "output",
     "width",
@@ -27,6 +27,7 @@ const KEYS: [&str; 29] = [
     "total_ms",
     "memory",
     "rays",
+    "rays_alone",
     "mrays_per_s",
     "mrays_per_s_by_kind",
     "node_visits",
@@ -56,8 +57,9 @@ fn the_keys_are_those_that_are_documented() {
     assert_eq!(keys(&stats), KEYS);
     assert_eq!(keys(&stats["memory"]), ["scene_bytes", "accel_bytes"]);
     assert_eq!(keys(&stats["rays"]), ["primary", "shadow", "reflection", "refraction"]);
-    let kinds = keys(&stats["mrays_per_s_by_kind"]);
-    assert_eq!(kinds, ["primary", "shadow", "reflection", "refraction"]);
+    for counted in ["rays_alone", "mrays_per_s_by_kind"] {
+        assert_eq!(keys(&stats[counted]), ["primary", "shadow", "reflection", "refraction"]);
+    }
 }
 
 #[test]
@@ -168,6 +170,24 @@ fn packets_are_told_by_their_number_of_rays() {
             assert_eq!(stats(&scratch, "spd:balls:0", &flags)["packet"], size);
         }
     }
+}
+
+/// Rays that go one by one from the start, never, and some: those of the eye less often than those of
+/// mirrors.
+#[test]
+fn rays_that_part_are_counted() {
+    let scratch = Scratch::new();
+    let counts = |flags: &[&str]| {
+        let stats = stats(&scratch, "spd:balls:2", flags);
+        ["primary", "reflection"]
+            .map(|kind| [&stats["rays"], &stats["rays_alone"]].map(|counts| count(&counts[kind])))
+    };
+    let all = counts(&["--packet", "1"]);
+    assert!(all.iter().all(|[rays, alone]| rays == alone && *rays > 0), "{all:?}");
+    let none = counts(&["--layout", "skip", "--packet", "4"]);
+    assert!(none.iter().all(|[_, alone]| *alone == 0), "{none:?}");
+    let some = counts(&["--packet", "64"]).map(|[rays, alone]| alone as f64 / rays as f64);
+    assert!(0.0 < some[0] && some[0] < some[1] && some[1] <= 1.0, "{some:?}");
 }
 
 #[test]

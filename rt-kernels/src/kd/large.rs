@@ -106,7 +106,8 @@ pub(super) fn trace<S: Simd>(
         while let Some(class) = chunk.next_class() {
             let packet = LargePacket::new(&mut chunk, class, any);
             let (mail, mail_alone, scratch) = (&mut mail, &mut mail_alone, &mut scratch);
-            Traversal { s, tree, packet, mail, mail_alone, scratch, stats }.trace(class.rays);
+            Traversal { s, tree, packet, mail, mail_alone, scratch, alone: 0, stats }
+                .trace(class.rays);
         }
         if waited {
             chunk.scatter(hits, buckets.places());
@@ -133,6 +134,8 @@ struct Traversal<'a, 'm, S: Simd> {
     mail: &'a mut Mail<'m>,
     mail_alone: &'a mut Mail<'m>,
     scratch: &'a mut Scratch,
+    /// The rays that have gone on by themselves.
+    alone: u64,
     stats: &'a mut Stats,
 }
 
@@ -370,6 +373,8 @@ impl<S: Simd> Traversal<'_, '_, S> {
     #[inline(always)]
     fn one_by_one(&mut self, planes: &Planes, node: Node, mut rays: u64) {
         let s = Scalar::new();
+        self.stats.rays_alone += u64::from((rays & !self.alone).count_ones());
+        self.alone |= rays;
         while rays != 0 {
             let ray = rays.trailing_zeros() as usize;
             rays &= rays - 1;

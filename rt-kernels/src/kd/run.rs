@@ -100,6 +100,7 @@ fn single<'a>(
         let mut query = Single::new(&packet, ask);
         traverse(s, tree, &mut stack, &mut mail, &packet, &mut query, &mut done);
         found(i, query.hit());
+        done.rays_alone += 1;
     }
     *stats += done;
 }

@@ -12,6 +12,7 @@ use crate::RayKind;
 #[derive(Clone, Copy, Debug, Default)]
 struct KindTally {
     rays: u64,
+    alone: u64,
     time: Duration,
 }
 
@@ -32,16 +33,18 @@ impl Tally {
         rays: &Rays,
         hits: &mut Hits,
     ) {
+        let mut stats = Stats::default();
         let start = Instant::now();
-        job.world.accel.closest(job.job.exec, rays, hits, &mut self.stats);
-        self.count(kind, rays, start);
+        job.world.accel.closest(job.job.exec, rays, hits, &mut stats);
+        self.count(kind, rays, start, stats);
     }
 
     /// Finds which rays hit anything, and counts them as shadow rays.
     pub(crate) fn any(&mut self, job: &TileJob<'_>, rays: &Rays, found: &mut Vec<bool>) {
+        let mut stats = Stats::default();
         let start = Instant::now();
-        job.world.accel.any(job.job.exec, rays, found, &mut self.stats);
-        self.count(RayKind::Shadow, rays, start);
+        job.world.accel.any(job.job.exec, rays, found, &mut stats);
+        self.count(RayKind::Shadow, rays, start, stats);
     }
 
     /// Nodes visited and primitives tested so far.
@@ -57,10 +60,12 @@ impl Tally {
         self.shading += start.elapsed();
     }
 
-    fn count(&mut self, kind: RayKind, rays: &Rays, start: Instant) {
+    fn count(&mut self, kind: RayKind, rays: &Rays, start: Instant, stats: Stats) {
         let tally = &mut self.kinds[kind as usize];
-        tally.rays += rays.len() as u64;
         tally.time += start.elapsed();
+        tally.rays += rays.len() as u64;
+        tally.alone += stats.rays_alone;
+        self.stats += stats;
     }
 
     /// The report of all tiles together.
@@ -68,7 +73,7 @@ impl Tally {
         let threads = threads.max(1) as u32;
         let kind = |kind: RayKind| {
             let tally = self.kinds[kind as usize];
-            KindReport { rays: tally.rays, time: tally.time / threads }
+            KindReport { rays: tally.rays, alone: tally.alone, time: tally.time / threads }
         };
         Report {
             primary: kind(RayKind::Primary),
@@ -86,6 +91,7 @@ impl AddAssign for Tally {
     fn add_assign(&mut self, other: Tally) {
         for (own, other) in self.kinds.iter_mut().zip(other.kinds) {
             own.rays += other.rays;
+            own.alone += other.alone;
             own.time += other.time;
         }
         self.shading += other.shading;
@@ -98,6 +104,9 @@ impl AddAssign for Tally {
 pub struct KindReport {
     /// How many.
     pub rays: u64,
+    /// How many of them went on by themselves, in the end or all along, for want of others that went
+    /// the same way.
+    pub alone: u64,
     /// The time in the kernels, summed over the threads and divided by their number.
     pub time: Duration,
 }
@@ -134,6 +143,7 @@ impl Report {
         let kinds = [self.primary, self.shadow, self.reflection, self.refraction];
         KindReport {
             rays: kinds.iter().map(|kind| kind.rays).sum(),
+            alone: kinds.iter().map(|kind| kind.alone).sum(),
             time: kinds.iter().map(|kind| kind.time).sum(),
         }
     }

@@ -114,7 +114,8 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
         while let Some(class) = chunk.next_class() {
             let packet = LargePacket::new(&mut chunk, class, any);
             let (large, single, stats) = (&mut *large, &mut single, &mut done);
-            Traversal { s, wide, large, single, packet, stats }.trace::<B>(class.rays, mixed);
+            Traversal { s, wide, large, single, packet, alone: 0, stats }
+                .trace::<B>(class.rays, mixed);
         }
         if waited {
             chunk.scatter(hits, buckets.places());
@@ -132,6 +133,8 @@ pub(super) struct Traversal<'a, S: Simd, C: Counters, const N: usize> {
     large: &'a mut [Entry],
     single: &'a mut Stack,
     pub(super) packet: LargePacket<'a>,
+    /// The rays that have gone on by themselves.
+    alone: u64,
     pub(super) stats: &'a mut C,
 }
 
@@ -303,6 +306,9 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     #[inline(always)]
     fn one_by_one<B: SimdF32<Simd = S>>(&mut self, child: Child, mut rays: u64) {
         let s = self.s;
+        let new = rays & !self.alone;
+        self.alone |= rays;
+        self.stats.count(|stats| stats.rays_alone += u64::from(new.count_ones()));
         while rays != 0 {
             let ray = rays.trailing_zeros() as usize;
             rays &= rays - 1;
