@@ -10,7 +10,7 @@ use crate::bvh::traverse::wide::{self, Stack};
 use crate::packet::{Ask, Hits, Packet, Rays, Single};
 use crate::trace::{Traverse, in_frame};
 use crate::tri::with_kernel;
-use crate::{Accelerator, Counters, Exec, NoStats, PacketSize, Ray, Stats};
+use crate::{Accelerator, Counters, Exec, Hit, NoStats, PacketSize, Ray, Stats};
 
 /// Shows a visitor what a ray hits, in no order.
 pub(crate) fn visit<T: Traverse>(traverse: &T, ray: &Ray, visitor: Visitor<'_>) {
@@ -76,6 +76,33 @@ enum Work<'a, C> {
     One { ray: &'a Ray, visitor: Visitor<'a> },
 }
 
+impl<C> Work<'_, C> {
+    fn len(&self) -> usize {
+        match self {
+            Work::Batch { rays, .. } => rays.len(),
+            Work::One { .. } => 1,
+        }
+    }
+
+    /// A ray, and what is asked of it.
+    #[inline(always)]
+    fn get(&mut self, i: usize) -> (Ray, Ask<'_>) {
+        match self {
+            Work::Batch { rays, any: true, .. } => (rays.get(i), Ask::Any),
+            Work::Batch { rays, .. } => (rays.get(i), Ask::Closest),
+            Work::One { ray, visitor } => (**ray, Ask::Each(visitor)),
+        }
+    }
+
+    /// What a ray has found.
+    #[inline(always)]
+    fn found(&mut self, i: usize, hit: Hit) {
+        if let Work::Batch { hits, .. } = self {
+            hits.set(i, hit);
+        }
+    }
+}
+
 impl<const N: usize> Wide<N>
 where
     Self: Width,
@@ -116,22 +143,16 @@ where
 fn in_all_lanes<V: SimdF32, C: Counters, const N: usize>(
     s: V::Simd,
     wide: &Wide<N>,
-    work: Work<'_, C>,
+    mut work: Work<'_, C>,
 ) {
     let mut stack = Stack::new(wide);
-    match work {
-        Work::Batch { rays, any, hits, stats } => {
-            let mut done = C::default();
-            for i in 0..rays.len() {
-                let ask = if any { Ask::Any } else { Ask::Closest };
-                let hit = wide::trace::<V, N>(s, wide, &mut stack, &rays.get(i), ask, &mut done);
-                hits.set(i, hit);
-            }
-            *stats += done;
-        }
-        Work::One { ray, visitor } => {
-            let stats = &mut C::default();
-            wide::trace::<V, N>(s, wide, &mut stack, ray, Ask::Each(visitor), stats);
-        }
+    let mut done = C::default();
+    for i in 0..work.len() {
+        let (ray, ask) = work.get(i);
+        let hit = wide::trace::<V, N>(s, wide, &mut stack, &ray, ask, &mut done);
+        work.found(i, hit);
+    }
+    if let Work::Batch { stats, .. } = work {
+        *stats += done;
     }
 }

@@ -6,7 +6,7 @@ use rt_kernels::camera::Pinhole;
 use rt_kernels::geom::Triangle;
 use rt_kernels::tri::Method;
 use rt_kernels::{Brute, Bvh, Exec, Plan, Primitives, Ray, Rays, Sequential};
-use rt_render::precision::{Choice, Facts, Prediction, choose, predict};
+use rt_render::precision::{Choice, Facts, Over, Prediction, choose, predict};
 use rt_render::{bounds, fitted_view};
 use rt_scene::{Scene, View, spd};
 use rt_tests::hash::fnv1a;
@@ -142,7 +142,11 @@ fn view(scene: &Scene) -> View {
 }
 
 fn chosen(scene: &Scene, tolerance: f64) -> Choice {
-    choose(scene, &view(scene), SIZE, tolerance)
+    chosen_over(Over::SkipArray, scene, tolerance)
+}
+
+fn chosen_over(over: Over, scene: &Scene, tolerance: f64) -> Choice {
+    choose(scene, &view(scene), SIZE, tolerance, over)
 }
 
 #[test]
@@ -167,6 +171,20 @@ fn scenes_differ_in_what_they_need() {
         let ranks: Vec<_> = (-30..10).map(|e| rank(chosen(&scene, power(e).into()))).collect();
         assert!(ranks.is_sorted_by(|a, b| a >= b), "{}: {ranks:?}", scene.name);
     }
+}
+
+/// Where there is but one test, and where it is the cheapest, a tolerance changes nothing.
+#[test]
+fn structures_differ_in_what_is_cheap() {
+    for scene in [near(), far(), slivers(), room(), bumpy()] {
+        for over in [Over::WideNodes, Over::List] {
+            let choice = chosen_over(over, &scene, 1e9);
+            assert_eq!(choice.method, Method::Watertight, "{over:?}, {}", scene.name);
+        }
+    }
+    let in_cells = |scene: &Scene| chosen_over(Over::KdTree, scene, 0.25).method;
+    assert_eq!(in_cells(&near()), Method::Wald);
+    assert_eq!([far(), slivers()].map(|scene| in_cells(&scene)), [Method::Watertight; 2]);
 }
 
 /// Wald's records cost more memory than they save time, once there are many.

@@ -25,10 +25,15 @@ struct Vessel {
 /// The ball of 81,920 triangles, each vertex pushed out or in by up to `jitter`, shrunk to `radius`
 /// and moved to `center`.
 fn vessel(radius: f32, center: Vec3, jitter: f32) -> Vessel {
+    let ball = Mesh::icosphere(6);
+    assert_eq!(ball.faces.len(), 81_920);
+    vessel_of(ball, radius, center, jitter)
+}
+
+fn vessel_of(ball: Mesh, radius: f32, center: Vec3, jitter: f32) -> Vessel {
     let mut random = Random::new(3);
     let place = |v: Vec3| v * (1.0 + jitter * random.signed()) * radius + center;
-    let mesh = Mesh::icosphere(6).map(place);
-    assert_eq!(mesh.faces.len(), 81_920);
+    let mesh = ball.map(place);
     Vessel {
         edges: mesh.edges(),
         bvh: Bvh::build(&mesh.primitives(), &Sequential).expect("in range"),
@@ -186,7 +191,7 @@ fn spiky_ball_far_away() {
 /// Every builder in every layout, in packets of every size, at every level.
 #[test]
 fn spiky_ball_of_every_plan() {
-    let mut ball = vessel(1.0, Vec3::ZERO, 0.05);
+    let mut ball = vessel_of(Mesh::icosphere(5), 1.0, Vec3::ZERO, 0.1);
     let scene = ball.mesh.primitives();
     let mut random = Random::new(13);
     let (scattered, swept) =

@@ -41,6 +41,10 @@ impl Programs {
             // Nobody edits and builds again for these in a loop, or debugs them: in one go and
             // without the places of lines it is quicker.
             command = command.env("CARGO_INCREMENTAL", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
+            if let Run::Directly = target.run {
+                // So is linking across the units of a crate; emulators gain more by it.
+                command = command.env("CARGO_PROFILE_DEV_LTO", "off");
+            }
             let flags = format!("{} --cfg without_benches", target.build.rustflags);
             command = command.env("RUSTFLAGS", flags.trim_start());
         }

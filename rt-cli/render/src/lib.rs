@@ -10,6 +10,7 @@ mod film;
 mod fit;
 mod integrate;
 mod job;
+#[cfg(feature = "measure")]
 pub mod measure;
 pub mod precision;
 mod shade;

@@ -171,7 +171,7 @@ impl World {
     }
 
     /// By what plan a hierarchy of its scene is built.
-    pub(crate) fn plan(&self) -> Plan {
+    pub fn plan(&self) -> Plan {
         self.plan
     }
 

@@ -5,6 +5,7 @@ mod keep;
 use std::time::Instant;
 
 use glam::Vec3;
+use rt_render::precision::Over;
 use rt_render::{Aabb, Job, Plan, World, check_crop, check_size, fitted_view, precision};
 use rt_scene::View;
 
@@ -62,12 +63,16 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
     let size = picture_size(&args.picture, own_view.as_ref());
     args.picture.crop.map_or(Ok(()), |crop| check_crop(crop, size))?;
     let view = view(&args.picture, own_view, &rt_render::bounds(&scene), size);
+    let accel = args.machine.accel();
     let kernel = match args.precision.tolerance {
-        Some(pixels) => Kernel::Chosen(precision::choose(&scene, &view, size, pixels), pixels),
+        Some(pixels) => {
+            let over = Over::of(accel, &args.machine.plan());
+            Kernel::Chosen(precision::choose(&scene, &view, size, pixels, over), over, pixels)
+        }
         None => Kernel::Asked(args.precision.method()),
     };
     let plan = Plan { method: kernel.method(), ..args.machine.plan() };
-    let world = World::build_with(scene, args.machine.accel(), plan, threads)?;
+    let world = World::build_with(scene, accel, plan, threads)?;
 
     if own_view.is_none() && !args.quiet {
         ui::say(&format!("camera: {}", report::flags(&view)));

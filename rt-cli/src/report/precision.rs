@@ -1,15 +1,15 @@
 //! Precision in words and in JSON.
 
 use rt_render::Method;
-use rt_render::precision::{Choice, ERRORS, Facts, Prediction};
+use rt_render::precision::{Choice, ERRORS, Facts, Over, Prediction};
 use serde_json::{Value, json};
 
 /// Why a triangle test was taken.
 pub(crate) enum Kernel {
     /// It was asked for, or is the default.
     Asked(Method),
-    /// It is the cheapest that stays under so many pixels.
-    Chosen(Choice, f64),
+    /// It is the cheapest over a structure that stays under so many pixels.
+    Chosen(Choice, Over, f64),
 }
 
 impl Kernel {
@@ -17,7 +17,7 @@ impl Kernel {
     pub(crate) fn method(&self) -> Method {
         match self {
             Kernel::Asked(method) => *method,
-            Kernel::Chosen(choice, _) => choice.method,
+            Kernel::Chosen(choice, ..) => choice.method,
         }
     }
 
@@ -26,10 +26,13 @@ impl Kernel {
         let name = self.method().name();
         match self {
             Kernel::Asked(_) => format!("{name} kernel"),
-            Kernel::Chosen(choice, tolerance) => {
+            Kernel::Chosen(choice, over, tolerance) => {
                 let pixels = digits(choice.prediction().pixels);
-                let why = match choice.method {
-                    Method::Watertight => format!("no cheaper one stays under {tolerance} px"),
+                let why = match (choice.method, over) {
+                    (Method::Watertight, Over::WideNodes) => {
+                        "over wide nodes none is cheaper".into()
+                    }
+                    (Method::Watertight, _) => format!("no cheaper one stays under {tolerance} px"),
                     _ => format!("off by at most {pixels} px, tolerance {tolerance} px"),
                 };
                 format!("{name} kernel ({why})")
@@ -41,7 +44,7 @@ impl Kernel {
     pub(crate) fn json(&self) -> Value {
         match self {
             Kernel::Asked(_) => Value::Null,
-            Kernel::Chosen(choice, tolerance) => json!({
+            Kernel::Chosen(choice, _, tolerance) => json!({
                 "px": tolerance,
                 "predicted": predictions_json(&choice.predictions),
             }),
@@ -99,13 +102,18 @@ pub(crate) fn facts_lines(
         let Prediction { method, band, depth, pixels } = prediction;
         let verdict = match method {
             Method::Watertight => "keeps the promise: no leaks".to_owned(),
-            _ if facts.triangles > errors.most_triangles => {
-                format!("no gain above {} triangles", errors.most_triangles)
+            _ => {
+                let pays = |(over, _): &(Over, _)| {
+                    errors.gain(*over).is_in(facts.triangles, facts.boxes_met)
+                };
+                let cheaper = [(Over::SkipArray, "skip arrays"), (Over::KdTree, "kd-trees")];
+                let cheaper: Vec<_> =
+                    cheaper.into_iter().filter(pays).map(|(_, name)| name).collect();
+                match cheaper.is_empty() {
+                    true => "nowhere cheaper here".to_owned(),
+                    false => format!("cheaper over {}", cheaper.join(" and ")),
+                }
             }
-            _ if facts.boxes_met > errors.most_boxes => {
-                format!("no gain where a line meets over {} boxes", errors.most_boxes)
-            }
-            _ => "enough for any tolerance above that".to_owned(),
         };
         let text = format!(
             "{}: band {}, depth {}: at most {} px; {verdict}",

@@ -53,7 +53,10 @@ fn a_tolerance_picks_the_same_on_every_level() {
     for (scene, kernel) in EXPECTED {
         let all: Vec<_> = levels()
             .iter()
-            .map(|level| stats(&scratch, &[scene, "--tolerance", "0.05", "--isa", level]))
+            .map(|level| {
+                let flags = [scene, "--layout", "skip", "--tolerance", "0.05", "--isa", level];
+                stats(&scratch, &flags)
+            })
             .collect();
         for stats in &all {
             assert_eq!(stats["kernel"], kernel, "{scene}");
@@ -84,10 +87,15 @@ fn the_closing_line_says_which_and_why() {
         let talk = scratch.rt(&[&base, args].concat()).exits(0).stderr;
         talk.lines().last().expect("a closing line").to_owned()
     };
-    let wald = line(&["near.obj", "--tolerance", "0.05"]);
+    let skip = |scene| line(&[scene, "--layout", "skip", "--tolerance", "0.05"]);
+    let wald = skip("near.obj");
     assert!(wald.contains("; wald kernel (off by at most 1."), "{wald}");
     assert!(wald.ends_with(" px, tolerance 0.05 px)"), "{wald}");
-    let needles = line(&["needles.obj", "--tolerance", "0.05"]);
+    let cells = line(&["near.obj", "--accel", "kd", "--tolerance", "0.05"]);
+    assert!(cells.contains("; wald kernel (off by at most 1."), "{cells}");
+    let wide = line(&["near.obj", "--tolerance", "0.05"]);
+    assert!(wide.ends_with("; watertight kernel (over wide nodes none is cheaper)"), "{wide}");
+    let needles = skip("needles.obj");
     let why = "; watertight kernel (no cheaper one stays under 0.05 px)";
     assert!(needles.ends_with(why), "{needles}");
     let asked = line(&["near.obj", "--kernel", "moller-trumbore"]);

@@ -35,6 +35,7 @@ impl Accelerator for KdTree {
     fn exec(&self, asked: Exec) -> Exec {
         let packet = match asked.packet {
             PacketSize::Large if self.is_for_large() => PacketSize::Large,
+            PacketSize::Eight | PacketSize::Sixteen if asked.level.lanes() == 4 => PacketSize::Four,
             _ => return asked.compiled(),
         };
         Exec { packet, ..asked }
@@ -121,7 +122,7 @@ fn four<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>) {
 
 #[inline(always)]
 fn eight<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>) {
-    if const { !S::EMULATED } {
+    if const { S::LANES >= 8 } {
         packets::<S::f32x8>(s, tree, batch);
     }
 }

@@ -206,15 +206,6 @@ pub struct Beam {
 }
 
 impl Beam {
-    /// Of rays that nobody has looked at.
-    pub const UNKNOWN: Beam = Beam {
-        axes: [0, 1, 2],
-        negative: [false; 3],
-        origin: [[f32::NEG_INFINITY, f32::INFINITY]; 3],
-        inv: [[0.0, f32::INFINITY]; 3],
-        slopes: [[-1.0, 1.0]; 2],
-    };
-
     /// Whether all rays have the same origin.
     #[inline(always)]
     pub fn has_apex(&self) -> bool {

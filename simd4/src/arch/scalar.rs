@@ -61,7 +61,10 @@ impl Simd for Scalar {
 
     #[inline(always)]
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
-        f()
+        fn scalar<R>(f: impl FnOnce() -> R) -> R {
+            f()
+        }
+        scalar(f)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Tiles: which pixels they have, and in what order.
 
 use glam::Vec3;
-use rt_kernels::Ray;
 use rt_kernels::camera::Pinhole;
 
 use crate::{Crop, Job, World};
@@ -86,7 +85,7 @@ impl Tiles {
     }
 
     /// The pixels of each of them.
-    pub(crate) fn all(self) -> impl Iterator<Item = Vec<(u32, u32)>> {
+    pub fn all(self) -> impl Iterator<Item = Vec<(u32, u32)>> {
         (0..self.len() as u32).map(move |index| self.pixels(index))
     }
 
@@ -106,11 +105,6 @@ impl Tiles {
             .filter(|(x, y)| columns.contains(x) && rows.contains(y))
             .collect()
     }
-}
-
-/// The rays through the middles of pixels.
-pub(crate) fn rays(camera: &Pinhole, pixels: &[(u32, u32)]) -> impl Iterator<Item = Ray> {
-    pixels.iter().map(|&(x, y)| camera.ray(x as f32 + 0.5, y as f32 + 0.5))
 }
 
 /// The bits at even places of a number of up to 10 bits.

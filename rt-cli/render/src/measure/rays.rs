@@ -4,7 +4,7 @@ use glam::Vec3;
 use rt_kernels::{Exec, Hits, Ray, Rays, Stats};
 
 use super::random::Random;
-use crate::exec::{Tiles, camera, tile};
+use crate::exec::{Tiles, camera};
 use crate::shade::Surface;
 use crate::{Job, RenderError, World};
 
@@ -37,7 +37,8 @@ impl Batches {
 pub fn primary(world: &World, job: &Job) -> Result<Batches, RenderError> {
     let camera = camera(world, job)?;
     let tiles = Tiles::of(job).all();
-    let batches = tiles.map(|pixels| tile::rays(&camera, &pixels).collect()).collect();
+    let ray = |(x, y)| camera.ray(x as f32 + 0.5, y as f32 + 0.5);
+    let batches = tiles.map(|pixels| pixels.into_iter().map(ray).collect()).collect();
     Ok(Batches { kind: "primary", any: false, batches })
 }
 

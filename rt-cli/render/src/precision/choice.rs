@@ -4,7 +4,7 @@ use rt_scene::{Scene, View};
 
 use super::band::{Prediction, predict};
 use super::facts::boxes_met;
-use super::table::ERRORS;
+use super::table::{ERRORS, Over};
 use crate::Method;
 
 /// A triangle test and why it is taken.
@@ -25,12 +25,13 @@ impl Choice {
 }
 
 /// The cheapest triangle test that stays under a tolerance, in pixels: the watertight one if no
-/// other does, or none that does pays in that scene. With a tolerance of 0 none does.
-pub fn choose(scene: &Scene, view: &View, size: (u32, u32), tolerance: f64) -> Choice {
+/// other does, or none that does pays in that scene `over` that structure. With a tolerance of 0 none
+/// does.
+pub fn choose(scene: &Scene, view: &View, size: (u32, u32), tolerance: f64, over: Over) -> Choice {
     let predictions = predict(scene, view, size);
     let (triangles, boxes_met) = (scene.mesh.triangles.len(), boxes_met(scene));
     let good = ERRORS.iter().zip(&predictions).find(|(errors, prediction)| {
-        prediction.pixels < tolerance && errors.pays(triangles, boxes_met)
+        prediction.pixels < tolerance && errors.gain(over).is_in(triangles, boxes_met)
     });
     let method = good.map_or(Method::default(), |(errors, _)| errors.method);
     Choice { method, predictions }

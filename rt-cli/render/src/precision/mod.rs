@@ -8,7 +8,8 @@
 //!    [`Method`](crate::Method): triangle by triangle, by the [`ERRORS`] of the method, in world units and in pixels
 //!    of that camera.
 //! 3. [`choose`] takes the first method, in the order of measured cost, of which that is less than
-//!    a tolerance, and that pays in a scene with so many triangles of which a ray meets so many.
+//!    a tolerance, and that pays over a structure in a scene with so many triangles of which a ray
+//!    meets so many.
 //!
 //! # What a tolerance means
 //!
@@ -26,4 +27,4 @@ mod table;
 pub use band::{Prediction, predict};
 pub use choice::{Choice, choose};
 pub use facts::Facts;
-pub use table::{ERRORS, Errors, ROUNDOFF, errors};
+pub use table::{ERRORS, Errors, Gain, Over, ROUNDOFF, errors};

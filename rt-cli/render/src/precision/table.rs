@@ -1,6 +1,6 @@
 //! How far each triangle test may be off.
 
-use crate::Method;
+use crate::{AccelKind, Layout, Method, Plan};
 
 /// The unit roundoff of `f32`: 2^-24.
 pub const ROUNDOFF: f64 = 1.0 / (1 << 24) as f64;
@@ -28,17 +28,66 @@ pub struct Errors {
     /// Whether that grows with the slimness of the triangle, because `t` is made of its edges and
     /// not of its plane.
     pub slim: bool,
-    /// The greatest number of triangles for which the test is worth its memory.
+    /// Where the test is faster than the default over a skip array.
+    skip_array: Gain,
+    /// Where it is over a kd-tree.
+    kd_tree: Gain,
+}
+
+impl Errors {
+    /// Where the test is faster than the default.
+    pub fn gain(&self, over: Over) -> Gain {
+        match over {
+            _ if self.method == Method::default() => Gain::ALWAYS,
+            Over::SkipArray => self.skip_array,
+            Over::KdTree => self.kd_tree,
+            // The one has the default alone, and the other is there to be compared with.
+            Over::WideNodes | Over::List => Gain::NEVER,
+        }
+    }
+}
+
+/// In what scenes a test is the faster one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gain {
+    /// The greatest number of triangles for which it is worth its memory.
     pub most_triangles: usize,
     /// The greatest number of [boxes met](super::Facts::boxes_met) for which it is worth its misses.
     pub most_boxes: f64,
 }
 
-impl Errors {
-    /// Whether the test is faster than the default in a scene of so many triangles, of whose boxes
-    /// a line meets so many.
-    pub fn pays(&self, triangles: usize, boxes_met: f64) -> bool {
+impl Gain {
+    const ALWAYS: Gain = Gain { most_triangles: usize::MAX, most_boxes: f64::INFINITY };
+    const NEVER: Gain = Gain { most_triangles: 0, most_boxes: 0.0 };
+
+    /// Whether it is in a scene of so many triangles, of whose boxes a line meets so many.
+    pub fn is_in(&self, triangles: usize, boxes_met: f64) -> bool {
         triangles <= self.most_triangles && boxes_met <= self.most_boxes
+    }
+}
+
+/// What a triangle test is run over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Over {
+    /// Nodes of four or eight children.
+    WideNodes,
+    /// A BVH as a list with skip pointers.
+    SkipArray,
+    /// A kd-tree.
+    KdTree,
+    /// All primitives.
+    List,
+}
+
+impl Over {
+    /// What a plan comes to with the default test.
+    pub fn of(kind: AccelKind, plan: &Plan) -> Over {
+        match (kind, plan.layout) {
+            (AccelKind::Bvh, Layout::Skip) => Over::SkipArray,
+            (AccelKind::Bvh, _) => Over::WideNodes,
+            (AccelKind::Kd { .. }, _) => Over::KdTree,
+            (AccelKind::Brute, _) => Over::List,
+        }
     }
 }
 
@@ -68,8 +117,8 @@ pub const ERRORS: [Errors; 3] = [
         end_on: false,
         depth: 5.0,
         slim: false,
-        most_triangles: 1 << 14,
-        most_boxes: 16.0,
+        skip_array: Gain { most_triangles: 1 << 14, most_boxes: 16.0 },
+        kd_tree: Gain { most_triangles: usize::MAX, most_boxes: 16.0 },
     },
     Errors {
         method: Method::MollerTrumbore,
@@ -79,8 +128,8 @@ pub const ERRORS: [Errors; 3] = [
         end_on: true,
         depth: 10.0,
         slim: true,
-        most_triangles: usize::MAX,
-        most_boxes: 6.0,
+        skip_array: Gain { most_triangles: usize::MAX, most_boxes: 6.0 },
+        kd_tree: Gain::NEVER,
     },
     Errors {
         method: Method::Watertight,
@@ -90,8 +139,8 @@ pub const ERRORS: [Errors; 3] = [
         end_on: false,
         depth: 8.0,
         slim: true,
-        most_triangles: usize::MAX,
-        most_boxes: f64::INFINITY,
+        skip_array: Gain::ALWAYS,
+        kd_tree: Gain::ALWAYS,
     },
 ];
 
@@ -112,6 +161,9 @@ mod tests {
         }
         assert_eq!(ERRORS.len(), Method::ALL.len());
         let last = ERRORS[ERRORS.len() - 1];
-        assert_eq!((last.method, last.most_triangles), (Method::default(), usize::MAX));
+        assert_eq!(last.method, Method::default());
+        for over in [Over::WideNodes, Over::SkipArray, Over::KdTree, Over::List] {
+            assert_eq!(last.gain(over), Gain::ALWAYS, "{over:?}");
+        }
     }
 }

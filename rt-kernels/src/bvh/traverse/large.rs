@@ -25,7 +25,7 @@ use simd4::{Lanes, Simd, SimdF32, SimdMask};
 use super::wide::{self, Stack};
 use crate::Counters;
 use crate::bvh::layout::{Child, Wide, WideNode};
-use crate::packet::{Ask, Beam, Buckets, Chunk, Hits, LARGE, LargePacket, Rays, Single};
+use crate::packet::{Ask, Buckets, Chunk, Hits, LARGE, LargePacket, Rays, Single};
 use crate::quadric::{cone, sphere};
 use crate::slab::pyramid::{Culling, Sides};
 use crate::slab::{interval, robust};
@@ -143,28 +143,28 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     #[inline(always)]
     fn trace<B: SimdF32<Simd = S>>(&mut self, rays: u64, alone: bool) {
         if alone {
-            return self.run::<B, Spread>(&Culling::new(&Beam::UNKNOWN), rays, LARGE as u32);
+            return self.one_by_one::<B>(Child::ROOT, rays);
         }
         let beam = self.packet.beam::<S::f32s>(self.s);
         let [x, y] = beam.slopes;
         let narrow = x[1] - x[0] <= NARROW && y[1] - y[0] <= NARROW;
         if narrow && beam.has_apex() {
-            self.run::<B, Pyramid>(&Culling::new(&beam), rays, Pyramid::FEW);
+            self.run::<B, Pyramid>(&Culling::new(&beam), rays);
         } else {
-            self.run::<B, Spread>(&Culling::new(&beam), rays, Spread::FEW);
+            self.run::<B, Spread>(&Culling::new(&beam), rays);
         }
     }
 
     /// Finds what those rays hit. Where so few are left below a node, they go on one by one.
     #[inline(always)]
-    fn run<B: SimdF32<Simd = S>, W: Way>(&mut self, culling: &Culling, rays: u64, few: u32) {
+    fn run<B: SimdF32<Simd = S>, W: Way>(&mut self, culling: &Culling, rays: u64) {
         let wide = self.wide;
         let mut next = Entry { child: Child::ROOT, enter: 0.0, rays };
         let mut top = 0;
         loop {
             let (rays, limit) = self.active(&next);
             let found = next.child.find();
-            let few = if found.is_ok() { few } else { W::FEW_IN_LEAF };
+            let few = if found.is_ok() { W::FEW } else { W::FEW_IN_LEAF };
             match found {
                 _ if rays.count_ones() <= few => self.one_by_one::<B>(next.child, rays),
                 Err(slots) => self.leaf::<B>(culling, &slots, rays),
