@@ -209,9 +209,8 @@ pub(crate) struct PrecisionArgs {
     /// The triangle test. Only the watertight one leaks nothing.
     #[arg(long, value_enum, value_name = "NAME", default_value_t, conflicts_with = "tolerance")]
     kernel: KernelArg,
-    /// Take the cheapest triangle test that is off by less than this many pixels, as far as can be
-    /// foretold (rt info SCENE tells): of use with --layout skip and --accel kd, because over wide
-    /// nodes the watertight one is the cheapest [default: none, which is 0].
+    /// Over skip arrays, take the cheapest triangle test that is off by less than this many pixels (rt
+    /// info tells); elsewhere the watertight one is the cheapest [default: none, which is 0].
     #[arg(long, value_name = "PX", value_parser = tolerance, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
 }

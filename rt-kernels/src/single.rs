@@ -152,6 +152,7 @@ fn in_all_lanes<V: SimdF32, C: Counters, const N: usize>(
         let hit = wide::trace::<V, N>(s, wide, &mut stack, &ray, ask, &mut done);
         work.found(i, hit);
     }
+    done.count(|stats| stats.rays_alone += work.len() as u64);
     if let Work::Batch { stats, .. } = work {
         *stats += done;
     }

@@ -150,10 +150,7 @@ fn real_scenes_look_the_same_every_way() {
     let best = Exec::best().expect("a level");
     let mut seen = 0;
     for name in ["obj/bunny.obj", "obj/conference.obj", "obj/teapot.obj", "spd/gears_s2.nff"] {
-        let Ok(scene) = rt_scene::open(folder.join(name)) else {
-            println!("skipped: there is no {name}");
-            continue;
-        };
+        let Ok(scene) = rt_scene::open(folder.join(name)) else { continue };
         let kd = world(&scene, kd(KdBuilder::default()), 1);
         let want = picture(&kd, &job(&kd, &scene, Integrator::Whitted, best));
         for plan in every_plan(Method::default()) {
