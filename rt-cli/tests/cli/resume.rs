@@ -1,10 +1,10 @@
 //! Long jobs: interrupted, taken up again, and what becomes of what is finished.
 
 use std::fs;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::process::{Child, Command};
 
-use crate::support::{Run, Scratch, argv, run};
+use crate::support::Scratch;
 
 /// Much work, if it were let; many tiles, the first of which are soon done.
 const LONG: [&str; 9] =
@@ -46,11 +46,22 @@ fn interrupted(scratch: &Scratch, args: &[&str]) {
     assert_eq!(child.wait().unwrap().code(), Some(130));
 }
 
-/// A run that is cut short by its clock: `args` for so many seconds, then an interrupt.
+/// The same; what it says then.
 #[track_caller]
-fn interrupt_after(scratch: &Scratch, seconds: &str, args: &[&str]) -> Run {
-    let head = ["timeout", "-s", "INT", "--preserve-status", "-k", "60", seconds].map(Into::into);
-    run(scratch.command(&[&head[..], &argv()].concat()).args(args))
+fn interrupted_saying(scratch: &Scratch, args: &[&str]) -> String {
+    let mut child = scratch.rt_command(args).spawn().expect("the program starts");
+    let mut said = BufReader::new(child.stderr.take().expect("a pipe"));
+    let mut line = String::new();
+    while !line.starts_with("rendered ") {
+        line.clear();
+        assert!(said.read_line(&mut line).expect("text") > 0, "it says how far it is");
+    }
+    signal(&child, "-INT");
+    line.clear();
+    said.read_to_string(&mut line).expect("text");
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stdout), (Some(130), vec![]), "{line}");
+    line
 }
 
 #[test]
@@ -116,7 +127,7 @@ fn with_resume_even_a_kill_loses_nothing() {
 #[test]
 fn another_picture_is_refused_and_said_why() {
     let scratch = Scratch::with_room();
-    interrupt_after(&scratch, "3", &LONG).exits(130);
+    interrupted(&scratch, &LONG);
     let kept = scratch.bytes("a.png.part");
     fs::rename(scratch.path("a.png.part"), scratch.path("a.pfm.part")).unwrap();
     let args = ["render", "room.obj", "-o", "a.pfm", "-s", "40x30"];
@@ -212,8 +223,8 @@ fn a_part_lies_where_the_file_will_be() {
     let scratch = Scratch::new();
     fs::create_dir(scratch.path("folder")).unwrap();
     std::os::unix::fs::symlink("folder/b.png", scratch.path("a.png")).unwrap();
-    let run = interrupt_after(&scratch, "3", &LONG).exits(130);
-    assert!(run.stderr.contains("folder/b.png.part, and --resume"), "{}", run.stderr);
+    let said = interrupted_saying(&scratch, &LONG);
+    assert!(said.contains("folder/b.png.part, and --resume"), "{said}");
     assert_eq!(scratch.names(), ["a.png", "folder"]);
     scratch.rt(&[&SHORT[..], &["--resume"]].concat()).exits(0);
     let inside = fs::read_dir(scratch.path("folder")).unwrap().count();
@@ -226,8 +237,7 @@ fn what_is_no_file_has_nothing_beside_it() {
     let run = scratch.rt(&["render", "room.obj", "-o", "-", "--resume"]).exits(1);
     assert_eq!(run.stderr, "error: --resume takes a file to write to: - is none\n");
     let args = ["render", "spd:balls:4", "--accel", "brute", "-j1", "-s", "1024x1024", "-o", "-"];
-    let run = interrupt_after(&scratch, "2", &args).exits(130);
-    assert!(run.stderr.lines().last().unwrap().starts_with("error: interrupted at "));
-    assert!(run.stdout.is_empty());
+    let said = interrupted_saying(&scratch, &args);
+    assert!(said.lines().last().unwrap().starts_with("error: interrupted at "), "{said}");
     assert_eq!(scratch.names(), ["room.mtl", "room.obj"]);
 }

@@ -33,9 +33,9 @@ fn bilinear(texture: &Texture, uv: Vec2) -> Vec3 {
     let (width, height) = (texture.width(), texture.height());
     let (left, right, x) = neighbours(uv.x, width);
     let (top, bottom, y) = neighbours(1.0 - uv.y, height);
+    let (light, pixels) = (&*LIGHT, texture.pixels());
     let pixel = |column: u32, row: u32| {
-        let [r, g, b] = texture.pixels()[(row * width + column) as usize];
-        let light = &*LIGHT;
+        let [r, g, b] = pixels[(row * width + column) as usize];
         Vec3::new(light[r as usize], light[g as usize], light[b as usize])
     };
     let mix = |row| pixel(left, row) * (1.0 - x) + pixel(right, row) * x;
@@ -46,13 +46,20 @@ fn bilinear(texture: &Texture, uv: Vec2) -> Vec3 {
 /// The middle of the first pixel is at half a pixel.
 fn neighbours(coordinate: f32, count: u32) -> (u32, u32, f32) {
     // Within one picture first: what is left has all its digits. From 2^24 on there are none.
-    let within = coordinate - coordinate.floor();
-    let within = if within.is_finite() { within } else { 0.0 };
+    let has_digits = coordinate.abs() < (1 << 24) as f32;
+    let within = if has_digits { coordinate - floor(coordinate) as f32 } else { 0.0 };
     let place = within * count as f32 - 0.5;
-    let floor = place.floor();
-    let first = if floor < 0.0 { count - 1 } else { (floor as u32).min(count - 1) };
+    let floor = floor(place);
+    let first = if floor < 0 { count - 1 } else { (floor as u32).min(count - 1) };
     let second = if first + 1 == count { 0 } else { first + 1 };
-    (first, second, place - floor)
+    (first, second, place - floor as f32)
+}
+
+/// The greatest integer that is not greater: of numbers up to 2^24, without the function that
+/// [`f32::floor`] calls on CPUs that may lack the instruction.
+fn floor(x: f32) -> i32 {
+    let toward_zero = x as i32;
+    toward_zero - i32::from(toward_zero as f32 > x)
 }
 
 /// The light of each 8-bit code of sRGB (IEC 61966-2-1). The power comes from the one library whose

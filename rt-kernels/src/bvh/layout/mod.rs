@@ -1,5 +1,6 @@
 //! Layouts: flat arrays, converted from the build tree, that own their copy of the primitives.
 
+mod collapse;
 mod skip_array;
 mod wide;
 

@@ -1,0 +1,125 @@
+//! Which nodes of a build tree become the children of one wide node.
+//!
+//! Whoever meets a wide node's box tests all its children, so the sum of the surfaces of all wide nodes
+//! is to be least: leaves are what they are. Of each node it is known what its subtree costs at least
+//! as one child of a wide node, as up to two, and so on: as one it is a wide node of its own, whose
+//! children are those of the build tree as up to N; as more it gives way to its children, among which
+//! the number is shared out.
+//!
+//! Source: Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
+//! BVHs", 2017, Section 3.1. Deviation: subtrees do not become leaves here.
+
+use crate::bvh::build;
+use crate::geom::Aabb;
+
+/// A subtree of the build tree.
+pub(super) enum Subtree<const N: usize> {
+    /// A leaf, also of a wide node.
+    Leaf(build::Node),
+    /// Two to N subtrees.
+    Inner(Inner<N>),
+}
+
+/// Two to N subtrees.
+pub(super) struct Inner<const N: usize> {
+    aabb: Aabb,
+    children: Vec<Subtree<N>>,
+    /// The least cost as up to one child of a wide node, up to two, and so on.
+    costs: [f32; N],
+}
+
+impl<const N: usize> Subtree<N> {
+    /// A node with those children, of which there are two to N.
+    pub(super) fn inner(aabb: Aabb, children: Vec<Subtree<N>>) -> Self {
+        let mut shared = [f32::INFINITY; N];
+        for (i, child) in children.iter().enumerate() {
+            shared = match i {
+                0 => std::array::from_fn(|i| child.cost(i)),
+                _ => std::array::from_fn(|i| shared_out(&shared, child, i).1),
+            };
+        }
+        // That there are fewer nodes counts where none has a surface.
+        let mut least = aabb.half_area().max(f32::MIN_POSITIVE) + shared[N - 1];
+        let costs = shared.map(|cost| {
+            least = least.min(cost);
+            least
+        });
+        Subtree::Inner(Inner { aabb, children, costs })
+    }
+
+    /// The box around all of it.
+    pub(super) fn aabb(&self) -> &Aabb {
+        match self {
+            Subtree::Leaf(node) => &node.aabb,
+            Subtree::Inner(inner) => &inner.aabb,
+        }
+    }
+
+    /// The least cost as up to `more` children of a wide node and one.
+    fn cost(&self, more: usize) -> f32 {
+        match self {
+            Subtree::Leaf(_) => 0.0,
+            Subtree::Inner(inner) => inner.costs[more],
+        }
+    }
+
+    /// Adds itself, or what it is parted into as up to `more` children of a wide node and one.
+    fn open(self, more: usize, opened: &mut Vec<Subtree<N>>) {
+        match self {
+            Subtree::Inner(inner) if inner.costs[more] < inner.costs[0] => inner.part(more, opened),
+            whole => opened.push(whole),
+        }
+    }
+}
+
+impl<const N: usize> Inner<N> {
+    /// What this is parted into if it is a wide node.
+    pub(super) fn open(self) -> Vec<Subtree<N>> {
+        let mut opened = Vec::with_capacity(N);
+        self.part(N - 1, &mut opened);
+        opened
+    }
+
+    /// The same, but what has the largest surface is parted as long as there is room: what is met first.
+    pub(super) fn open_largest(self) -> Vec<Subtree<N>> {
+        let mut opened = self.children;
+        loop {
+            let fits = |subtree: &Subtree<N>| match subtree {
+                Subtree::Inner(inner) if opened.len() - 1 + inner.children.len() <= N => {
+                    Some(inner.aabb.half_area())
+                }
+                _ => None,
+            };
+            let areas = opened.iter().enumerate().filter_map(|(i, one)| Some((i, fits(one)?)));
+            let largest = areas.max_by(|a, b| a.1.total_cmp(&b.1));
+            let Some((largest, _)) = largest else { return opened };
+            if let Subtree::Inner(inner) = opened.swap_remove(largest) {
+                opened.extend(inner.children);
+            }
+        }
+    }
+
+    /// Shares `more` children and one out among its own.
+    fn part(mut self, mut more: usize, opened: &mut Vec<Subtree<N>>) {
+        // What the first ones cost together, for each number of them.
+        let mut tables = Vec::with_capacity(self.children.len());
+        let mut shared = std::array::from_fn(|i| self.children[0].cost(i));
+        for child in &self.children[1..] {
+            tables.push(shared);
+            shared = std::array::from_fn(|i| shared_out(&shared, child, i).1);
+        }
+        while let Some(child) = self.children.pop() {
+            let Some(before) = tables.pop() else { return child.open(more, opened) };
+            let (own, _) = shared_out(&before, &child, more);
+            child.open(own, opened);
+            more -= own + 1;
+        }
+    }
+}
+
+/// Of `more` children and one, how many more than one this is to have, if those `before` cost so much
+/// for each number; and what all cost then. Infinite if there are too few.
+fn shared_out<const N: usize>(before: &[f32; N], child: &Subtree<N>, more: usize) -> (usize, f32) {
+    let ways = (0..more).map(|own| (own, before[more - 1 - own] + child.cost(own)));
+    ways.fold((0, f32::INFINITY), |best, way| if way.1 < best.1 { way } else { best })
+}
