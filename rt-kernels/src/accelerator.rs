@@ -12,10 +12,52 @@ pub(crate) type Visitor<'a> = &'a mut dyn FnMut(Hit) -> f32;
 pub trait Accelerator: Send + Sync {
     /// Finds the closest hit of every ray. `hits` is made as long as `rays`; work is added to
     /// `stats`.
+    ///
+    /// The rays may be in any order, and go anywhere: those that go together are found here. Which they
+    /// are and how many, changes no hit.
+    ///
+    /// ```
+    /// # use glam::Vec3;
+    /// # use rt_kernels::{Accelerator, Bvh, Exec, Hits, PacketSize, Primitives, Ray, Rays};
+    /// # use rt_kernels::{Sequential, Stats, geom::Sphere};
+    /// # let spheres = vec![Sphere { center: Vec3::ZERO, radius: 1.0 }];
+    /// # let bvh = Bvh::build(&Primitives { spheres, ..Primitives::default() }, &Sequential)?;
+    /// let rays: Rays = (0..100)
+    ///     .map(|i| Ray::new(Vec3::new(i as f32 / 50.0, 0.0, 5.0), Vec3::NEG_Z))
+    ///     .collect();
+    /// let (mut hits, mut stats) = (Hits::new(), Stats::default());
+    /// bvh.closest(Exec::best()?, &rays, &mut hits, &mut stats);
+    /// assert_eq!((hits.get(0).map(|hit| hit.t), hits.get(99)), (Some(4.0), None));
+    ///
+    /// let mut by_fours = Hits::new();
+    /// let exec = Exec { packet: PacketSize::Four, ..Exec::best()? };
+    /// bvh.closest(exec, &rays, &mut by_fours, &mut stats);
+    /// assert!(by_fours == hits);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     fn closest(&self, exec: Exec, rays: &Rays, hits: &mut Hits, stats: &mut Stats);
 
     /// Finds for every ray whether it hits anything within its interval. `found` is made as long
     /// as `rays`; work is added to `stats`.
+    ///
+    /// ```
+    /// # use glam::Vec3;
+    /// # use rt_kernels::{Accelerator, Bvh, Exec, Primitives, Ray, Rays, Sequential, Stats};
+    /// # use rt_kernels::geom::Sphere;
+    /// # let spheres = vec![Sphere { center: Vec3::ZERO, radius: 1.0 }];
+    /// # let bvh = Bvh::build(&Primitives { spheres, ..Primitives::default() }, &Sequential)?;
+    /// // Shadow rays: from a lamp to points before the ball, behind it and beside it.
+    /// let lamp = Vec3::new(0.0, 0.0, 5.0);
+    /// let points = [Vec3::Z * 2.0, Vec3::Z * -2.0, Vec3::X * 2.0];
+    /// let rays: Rays = points
+    ///     .map(|point| Ray { tmax: 1.0, ..Ray::new(lamp, point - lamp) })
+    ///     .into_iter()
+    ///     .collect();
+    /// let mut dark = Vec::new();
+    /// bvh.any(Exec::best()?, &rays, &mut dark, &mut Stats::default());
+    /// assert_eq!(dark, [false, true, false]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     fn any(&self, exec: Exec, rays: &Rays, found: &mut Vec<bool>, stats: &mut Stats);
 
     /// Shows `visitor` what a ray hits, in no order, and a hit perhaps twice. It returns the

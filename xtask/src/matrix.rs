@@ -40,7 +40,7 @@ pub(crate) static TARGETS: &[Target] = &[
     target("cortex-a53",    AARCH64,     qemu("aarch64", "cortex-a53"),      These(&["scalar", "neon"]),                  Brief,       None,              Linux,         EveryRun),
     target("cortex-a72",    AARCH64,     qemu("aarch64", "cortex-a72"),      These(&["scalar", "neon"]),                  Brief,       None,              Linux,         OnDemand),
     target("aarch64-all",   AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Workspace,   None,              Linux,         OnDemand),
-    target("i686",          I686,        Directly,                           OfThisCpu,                                   Core,        Some(Core),        LinuxX86,      EveryRun),
+    target("i686",          I686,        Directly,                           OfThisCpu,                                   Core,        Some(Brief),       LinuxX86,      EveryRun),
     target("wasm32",        WASM32,      Node,                               These(&["scalar"]),                          Core,        None,              Unix,          EveryRun),
     target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Core,        Some(Core),        Unix,          EveryRun),
     // Without a level of their own: the definition holds for either order of bytes and for every
@@ -167,10 +167,14 @@ pub(crate) enum Tests {
 /// What every architecture must hold.
 pub(crate) const CORE: [&str; 3] = ["simd4", "rt-kernels", "rt-tests"];
 
-/// The tests of [`CORE`] that take an emulator a minute and more.
-pub(crate) const LONG: [&str; 7] = [
+/// The tests of [`CORE`] that take an emulator ten seconds to minutes.
+pub(crate) const LONG: [&str; 11] = [
+    "accelerators::meshes_aimed",
     "build::pathological_scenes",
     "threads_do_not_change",
+    "large::bundles_at_edges",
+    "pictures::every_builder",
+    "pictures::every_layout",
     "pictures::every_way",
     "precision::pictures_are_within",
     "watertight::ball",

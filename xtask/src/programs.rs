@@ -142,7 +142,7 @@ impl Programs {
             wrong.extend(failure);
         }
         if tests == Tests::Brief {
-            skipped.extend(LONG.map(|name| format!("{name}: too long for an emulator")));
+            skipped.extend(LONG.map(|name| format!("{name}: too long to repeat here")));
         }
         if sum.passed == 0 && wrong.is_empty() {
             wrong.push("no test was run".to_owned());

@@ -66,6 +66,17 @@ impl Bvh {
     ///
     /// # Errors
     /// As [`build`](Bvh::build).
+    ///
+    /// ```
+    /// # use glam::Vec3;
+    /// # use rt_kernels::{Builder, Bvh, Layout, Plan, Primitives, Sequential};
+    /// # let vertices = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+    /// # let scene = Primitives::mesh(&vertices, &[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])?;
+    /// let plan = Plan { builder: Builder::Spatial, layout: Layout::Bvh4, ..Plan::default() };
+    /// let bvh = Bvh::build_with(&scene, plan, &Sequential)?;
+    /// assert_eq!((bvh.plan(), bvh.references()), (plan, 4));
+    /// # Ok::<(), rt_kernels::BuildError>(())
+    /// ```
     pub fn build_with(
         primitives: &Primitives,
         plan: Plan,
@@ -115,6 +126,21 @@ impl Bvh {
     /// As [`build`](Bvh::build), or if there are more primitives of a kind than before, or
     /// fewer.
     /// The hierarchy stays as it was.
+    ///
+    /// ```
+    /// # use glam::Vec3;
+    /// # use rt_kernels::{Accelerator, Bvh, Primitives, Ray, Sequential};
+    /// # let mut vertices = vec![Vec3::ZERO, Vec3::X * 4.0, Vec3::Z * 4.0];
+    /// let triangles = [[0, 1, 2]];
+    /// let mut bvh = Bvh::build(&Primitives::mesh(&vertices, &triangles)?, &Sequential)?;
+    /// let ray = Ray::new(Vec3::new(1.0, 3.0, 1.0), Vec3::NEG_Y);
+    /// assert_eq!(bvh.intersect(&ray).map(|hit| hit.t), Some(3.0));
+    ///
+    /// vertices.iter_mut().for_each(|vertex| vertex.y += 1.0);
+    /// bvh.refit(&Primitives::mesh(&vertices, &triangles)?)?;
+    /// assert_eq!(bvh.intersect(&ray).map(|hit| hit.t), Some(2.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn refit(&mut self, primitives: &Primitives) -> Result<(), RefitError> {
         with_array!(&mut self.array, array => refit::refit(array, primitives))
     }

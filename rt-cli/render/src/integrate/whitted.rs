@@ -159,6 +159,8 @@ impl Scratch {
                 continue;
             }
             if light.casts_shadows {
+                // From the surface, although rays from the light would share their origin: only here
+                // is the start exact, and no surface darkens itself however far the light is.
                 let ray = Ray::new(surface.leave, to_light);
                 self.shadows.push(Ray { tmax: lit.distance(i), ..ray });
                 self.waiting.push(Path { pixel: path.pixel, weight });
