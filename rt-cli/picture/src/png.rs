@@ -75,6 +75,10 @@ pub fn read(bytes: &[u8]) -> Result<Picture, Error> {
     decoder.set_ignore_text_chunk(true);
     let mut reader = decoder.read_info().map_err(|error| invalid(&error))?;
     let info = reader.info();
+    // Over such a one the decoder would panic.
+    if info.palette.as_ref().is_some_and(|palette| !palette.len().is_multiple_of(3)) {
+        return Err(invalid(&"its palette ends within a colour"));
+    }
     let (width, height) = (info.width, info.height);
     // A row is at least one bit a pixel, and deflation makes nothing more than 1032 times as short.
     let least = info.bits_per_pixel() as u64;

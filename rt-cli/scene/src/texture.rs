@@ -88,6 +88,10 @@ fn png(bytes: &[u8]) -> Result<Texture, String> {
     decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::STRIP_16);
     let mut reader = decoder.read_info().map_err(told)?;
     let info = reader.info();
+    // Over such a one the decoder would panic.
+    if info.palette.as_ref().is_some_and(|palette| !palette.len().is_multiple_of(3)) {
+        return Err("not a good PNG: its palette ends within a colour".to_owned());
+    }
     let (width, height) = (info.width as usize, info.height as usize);
     let bits = info.bits_per_pixel();
     let most = bytes.len().saturating_mul(MAX_INFLATION).saturating_mul(8) / bits;

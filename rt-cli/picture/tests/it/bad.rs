@@ -139,6 +139,18 @@ fn a_png_that_claims_too_much_is_refused() {
     }
 }
 
+/// Of a colour and a third: sums and all else are as they should be.
+#[test]
+fn a_png_whose_palette_ends_within_a_colour_is_refused() {
+    let parts: [&[u8]; 3] = [
+        b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR\x00\x00\x00\x01\x00\x00\x00\x01\x08\x03\x00\x00\x00(\xcb4\xbb",
+        b"\x00\x00\x00\x04PLTE\x01\x02\x03\x04#\xdb\x8a\xab",
+        b"\x00\x00\x00\nIDATx\x9cc`\x00\x00\x00\x02\x00\x01H\xaf\xa4q",
+    ];
+    let message = error(&parts.concat());
+    assert!(message.ends_with("its palette ends within a colour"), "{message}");
+}
+
 /// The checksum of PNG, as its standard has it.
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {

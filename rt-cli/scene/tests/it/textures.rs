@@ -209,6 +209,18 @@ fn sizes_are_believed_as_far_as_the_file_can_hold_them() {
     assert_eq!(refused(bytes), told);
 }
 
+/// Of a colour and a third: sums and all else are as they should be.
+#[test]
+fn a_palette_that_ends_within_a_colour_is_refused() {
+    let parts: [&[u8]; 3] = [
+        b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR\x00\x00\x00\x01\x00\x00\x00\x01\x08\x03\x00\x00\x00(\xcb4\xbb",
+        b"\x00\x00\x00\x04PLTE\x01\x02\x03\x04#\xdb\x8a\xab",
+        b"\x00\x00\x00\nIDATx\x9cc`\x00\x00\x00\x02\x00\x01H\xaf\xa4q",
+    ];
+    let told = refused(parts.concat());
+    assert_eq!(told, "not a good PNG: its palette ends within a colour");
+}
+
 fn crc32(bytes: &[u8]) -> u32 {
     let mut crc = !0_u32;
     for &byte in bytes {
