@@ -123,3 +123,90 @@ fn shared_out<const N: usize>(before: &[f32; N], child: &Subtree<N>, more: usize
     let ways = (0..more).map(|own| (own, before[more - 1 - own] + child.cost(own)));
     ways.fold((0, f32::INFINITY), |best, way| if way.1 < best.1 { way } else { best })
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::bvh::build::Content;
+
+    /// Children by number, before their node; none of a leaf. And a size of each.
+    type Tree = Vec<(Option<[usize; 2]>, f32)>;
+
+    /// Up to eight leaves, put together at random.
+    fn tree(seed: u32) -> Tree {
+        let mut state = seed.wrapping_mul(2_654_435_769) | 1;
+        let mut below = |n: usize| {
+            state ^= state << 13;
+            state ^= state >> 17;
+            state ^= state << 5;
+            state as usize % n
+        };
+        let mut tree: Tree = (0..2 + below(7)).map(|_| (None, 1.0)).collect();
+        let mut roots: Vec<usize> = (0..tree.len()).collect();
+        while roots.len() > 1 {
+            let pair = [0; 2].map(|_| roots.swap_remove(below(roots.len())));
+            roots.push(tree.len());
+            tree.push((Some(pair), 1.0 + below(100) as f32));
+        }
+        tree
+    }
+
+    fn subtree<const N: usize>(tree: &Tree, i: usize) -> Subtree<N> {
+        let (children, size) = tree[i];
+        let aabb = Aabb::new(Vec3::ZERO, Vec3::splat(size));
+        match children {
+            Some(two) => Subtree::inner(aabb, two.map(|child| subtree(tree, child)).into()),
+            None => Subtree::Leaf(build::Node { aabb, content: Content::Leaf(0..1) }),
+        }
+    }
+
+    /// The surfaces of a wide node and all below.
+    fn surfaces<const N: usize>(inner: Inner<N>) -> f32 {
+        let own = inner.aabb.half_area();
+        let opened = inner.open();
+        assert!((1..=N).contains(&opened.len()), "{} children", opened.len());
+        let below = opened.into_iter().map(|child| match child {
+            Subtree::Inner(inner) => surfaces(inner),
+            Subtree::Leaf(_) => 0.0,
+        });
+        own + below.sum::<f32>()
+    }
+
+    /// How many children a node has if just those of `wide` are nodes.
+    fn children(tree: &Tree, wide: u32, i: usize) -> usize {
+        let two = tree[i].0.unwrap_or_default();
+        let of = |child: usize| match tree[child].0 {
+            Some(_) if wide >> child & 1 == 0 => children(tree, wide, child),
+            _ => 1,
+        };
+        two.map(of).iter().sum()
+    }
+
+    /// Of all ways to leave nodes out, none has less surface.
+    #[test]
+    fn no_choice_has_less_surface() {
+        const N: usize = 4;
+        for seed in 1..300 {
+            let tree = tree(seed);
+            let root = tree.len() - 1;
+            let inner: Vec<usize> = (0..=root).filter(|&i| tree[i].0.is_some()).collect();
+            let least = (0..1_u32 << tree.len())
+                .filter(|wide| wide >> root & 1 == 1)
+                .filter(|wide| (0..=root).all(|i| wide >> i & 1 == 0 || tree[i].0.is_some()))
+                .filter(|&wide| {
+                    let mut nodes = inner.iter().filter(|&&i| wide >> i & 1 == 1);
+                    nodes.all(|&i| children(&tree, wide, i) <= N)
+                })
+                .map(|wide| {
+                    let nodes = inner.iter().filter(|&&i| wide >> i & 1 == 1);
+                    nodes.map(|&i| 3.0 * tree[i].1 * tree[i].1).sum::<f32>()
+                })
+                .fold(f32::INFINITY, f32::min);
+            let Subtree::Inner(whole) = subtree::<N>(&tree, root) else { panic!("two leaves") };
+            let got = surfaces(whole);
+            assert!((got - least).abs() <= 1e-5 * least, "seed {seed}: {got}, not {least}");
+        }
+    }
+}
