@@ -144,7 +144,7 @@ fn every_layout_makes_the_same_picture() {
 /// Scenes of hundreds of thousands of triangles, where they are there: every builder in every layout,
 /// in packets of every size, at every level.
 #[test]
-#[ignore = "takes minutes, and scenes that are not of this repository"]
+#[ignore = "half a minute, and scenes that are not of this repository"]
 fn real_scenes_look_the_same_every_way() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/scenes");
     let best = Exec::best().expect("a level");

@@ -42,7 +42,8 @@ impl Programs {
             // without the places of lines it is quicker.
             command = command.env("CARGO_INCREMENTAL", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
             if let Run::Directly = target.run {
-                // So is linking across the units of a crate; emulators gain more by it.
+                // To optimise across the units of a crate takes longer than the tests gain by it,
+                // unless they are emulated.
                 command = command.env("CARGO_PROFILE_DEV_LTO", "off");
             }
             let flags = format!("{} --cfg without_benches", target.build.rustflags);

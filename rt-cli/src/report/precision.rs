@@ -100,8 +100,8 @@ pub(crate) fn facts_lines(
     }
     for (prediction, errors) in predictions.iter().zip(&ERRORS) {
         let Prediction { method, band, depth, pixels } = prediction;
-        let gain = errors.gain(Over::SkipArray);
-        let verdict = match (method, gain.is_in(facts.triangles, facts.boxes_met)) {
+        let pays = errors.pays(Over::SkipArray, facts.triangles, facts.boxes_met);
+        let verdict = match (method, pays) {
             (Method::Watertight, _) => "keeps the promise: no leaks",
             (_, true) => "cheaper over skip arrays",
             _ => "no cheaper here",

@@ -1,8 +1,9 @@
 //! Long jobs: interrupted, taken up again, and what becomes of what is finished.
 
 use std::fs;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::process::{Child, Command};
+use std::thread::{self, JoinHandle};
 
 use crate::support::Scratch;
 
@@ -13,19 +14,19 @@ const LONG: [&str; 9] =
 /// The same picture in no time.
 const SHORT: [&str; 6] = ["render", "spd:balls:4", "-s", "1024x1024", "-o", "a.png"];
 
-/// Starts a command and waits until it has finished a tile: in a pipe there are lines.
+/// Starts a command and waits until it has finished a tile: in a pipe there are lines. What it says
+/// then is read elsewhere, so that it can be written.
 #[track_caller]
-fn start(scratch: &Scratch, args: &[&str]) -> (Child, String) {
+fn start(scratch: &Scratch, args: &[&str]) -> (Child, String, JoinHandle<String>) {
     let mut child = scratch.rt_command(args).spawn().expect("the program starts");
-    let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines();
-    let line = lines.find_map(|line| {
-        let line = line.expect("text");
-        line.starts_with("rendered ").then_some(line)
-    });
-    let line = line.expect("it says how far it is");
-    // The rest is read elsewhere, so that it can be written.
-    std::thread::spawn(move || lines.for_each(drop));
-    (child, line)
+    let mut said = BufReader::new(child.stderr.take().expect("a pipe"));
+    let mut line = String::new();
+    while !line.starts_with("rendered ") {
+        line.clear();
+        assert!(said.read_line(&mut line).expect("text") > 0, "it says how far it is");
+    }
+    let rest = thread::spawn(move || std::io::read_to_string(said).expect("text"));
+    (child, line.trim_end().to_owned(), rest)
 }
 
 #[track_caller]
@@ -34,34 +35,20 @@ fn signal(child: &Child, name: &str) {
     assert!(kill.expect("there is kill").success());
 }
 
+/// What it says when it is interrupted.
 #[track_caller]
-fn interrupted(scratch: &Scratch, args: &[&str]) {
-    let (mut child, line) = start(scratch, args);
+fn interrupted(scratch: &Scratch, args: &[&str]) -> String {
+    let (child, line, rest) = start(scratch, args);
     let percent = line.strip_prefix("rendered ").and_then(|line| line.split_once(" %, "));
     let (percent, times) = percent.expect("percent");
     assert!(percent.parse::<u32>().is_ok(), "{line:?}");
     let (elapsed, left) = times.split_once(" elapsed, ").expect("the time that it took so far");
     assert!(elapsed.ends_with('s') && left.ends_with("s to go"), "{line:?}");
     signal(&child, "-INT");
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-}
-
-/// The same; what it says then.
-#[track_caller]
-fn interrupted_saying(scratch: &Scratch, args: &[&str]) -> String {
-    let mut child = scratch.rt_command(args).spawn().expect("the program starts");
-    let mut said = BufReader::new(child.stderr.take().expect("a pipe"));
-    let mut line = String::new();
-    while !line.starts_with("rendered ") {
-        line.clear();
-        assert!(said.read_line(&mut line).expect("text") > 0, "it says how far it is");
-    }
-    signal(&child, "-INT");
-    line.clear();
-    said.read_to_string(&mut line).expect("text");
     let output = child.wait_with_output().unwrap();
-    assert_eq!((output.status.code(), output.stdout), (Some(130), vec![]), "{line}");
-    line
+    let said = rest.join().expect("it was read");
+    assert_eq!((output.status.code(), output.stdout), (Some(130), vec![]), "{said}");
+    said
 }
 
 #[test]
@@ -69,7 +56,7 @@ fn an_interrupt_keeps_what_is_finished_and_no_more() {
     let scratch = Scratch::new();
     scratch.file("a.png", "precious");
     let with_stats = [&LONG[..], &["--stats-json", "new.json"]].concat();
-    let (child, _) = start(&scratch, &with_stats);
+    let (child, ..) = start(&scratch, &with_stats);
     assert_eq!(scratch.names(), ["a.png"], "while it works");
     signal(&child, "-KILL");
     drop(child.wait_with_output());
@@ -103,7 +90,7 @@ fn an_interrupt_keeps_what_is_finished_and_no_more() {
 fn with_resume_even_a_kill_loses_nothing() {
     let scratch = Scratch::new();
     let resume = [&LONG[..], &["--resume"]].concat();
-    let (mut child, _) = start(&scratch, &resume);
+    let (mut child, ..) = start(&scratch, &resume);
     signal(&child, "-KILL");
     child.wait().unwrap();
     assert_eq!(scratch.names(), ["a.png.part"]);
@@ -223,7 +210,7 @@ fn a_part_lies_where_the_file_will_be() {
     let scratch = Scratch::new();
     fs::create_dir(scratch.path("folder")).unwrap();
     std::os::unix::fs::symlink("folder/b.png", scratch.path("a.png")).unwrap();
-    let said = interrupted_saying(&scratch, &LONG);
+    let said = interrupted(&scratch, &LONG);
     assert!(said.contains("folder/b.png.part, and --resume"), "{said}");
     assert_eq!(scratch.names(), ["a.png", "folder"]);
     scratch.rt(&[&SHORT[..], &["--resume"]].concat()).exits(0);
@@ -237,7 +224,7 @@ fn what_is_no_file_has_nothing_beside_it() {
     let run = scratch.rt(&["render", "room.obj", "-o", "-", "--resume"]).exits(1);
     assert_eq!(run.stderr, "error: --resume takes a file to write to: - is none\n");
     let args = ["render", "spd:balls:4", "--accel", "brute", "-j1", "-s", "1024x1024", "-o", "-"];
-    let said = interrupted_saying(&scratch, &args);
+    let said = interrupted(&scratch, &args);
     assert!(said.lines().last().unwrap().starts_with("error: interrupted at "), "{said}");
     assert_eq!(scratch.names(), ["room.mtl", "room.obj"]);
 }

@@ -11,8 +11,8 @@
 //! end at walls, and nothing is tested twice over. There packets of rays that have an end in common, as
 //! primary rays and shadows, are as fast as in a [`Bvh`](crate::Bvh) or faster, by up to two and a half
 //! times. Everywhere else the [`Bvh`](crate::Bvh) of wide nodes wins: in meshes of small triangles it is
-//! two to three times as fast for all kinds of rays, it is built some nine times as fast, and it takes
-//! six tenths of the memory. `rt paper wald-2001` measures both.
+//! two to three times as fast for all kinds of rays, it is built nine times as fast and more, and it takes
+//! half the memory. `rt paper wald-2001` measures both.
 //!
 //! Packets of one register are the best; larger ones share visits and gain no time by it, as the paper
 //! says.

@@ -61,10 +61,7 @@ impl Simd for Scalar {
 
     #[inline(always)]
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
-        fn scalar<R>(f: impl FnOnce() -> R) -> R {
-            f()
-        }
-        scalar(f)
+        f()
     }
 }
 

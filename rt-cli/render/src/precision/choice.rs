@@ -31,7 +31,7 @@ pub fn choose(scene: &Scene, view: &View, size: (u32, u32), tolerance: f64, over
     let predictions = predict(scene, view, size);
     let (triangles, boxes_met) = (scene.mesh.triangles.len(), boxes_met(scene));
     let good = ERRORS.iter().zip(&predictions).find(|(errors, prediction)| {
-        prediction.pixels < tolerance && errors.gain(over).is_in(triangles, boxes_met)
+        prediction.pixels < tolerance && errors.pays(over, triangles, boxes_met)
     });
     let method = good.map_or(Method::default(), |(errors, _)| errors.method);
     Choice { method, predictions }

@@ -27,4 +27,4 @@ mod table;
 pub use band::{Prediction, predict};
 pub use choice::{Choice, choose};
 pub use facts::Facts;
-pub use table::{ERRORS, Errors, Gain, Over, ROUNDOFF, errors};
+pub use table::{ERRORS, Errors, Over, ROUNDOFF, errors};

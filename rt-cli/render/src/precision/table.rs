@@ -28,37 +28,18 @@ pub struct Errors {
     /// Whether that grows with the slimness of the triangle, because `t` is made of its edges and
     /// not of its plane.
     pub slim: bool,
-    /// Where the test is faster than the default over a skip array.
-    pub skip_array: Gain,
-}
-
-impl Errors {
-    /// Where the test is faster than the default.
-    pub fn gain(&self, over: Over) -> Gain {
-        match over {
-            _ if self.method == Method::default() => Gain::ALWAYS,
-            Over::SkipArray => self.skip_array,
-            Over::WideNodes | Over::Other => Gain::NEVER,
-        }
-    }
-}
-
-/// In what scenes a test is the faster one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gain {
-    /// The greatest number of triangles for which it is worth its memory.
+    /// The greatest number of triangles for which the test is worth its memory over a skip array.
     pub most_triangles: usize,
     /// The greatest number of [boxes met](super::Facts::boxes_met) for which it is worth its misses.
     pub most_boxes: f64,
 }
 
-impl Gain {
-    const ALWAYS: Gain = Gain { most_triangles: usize::MAX, most_boxes: f64::INFINITY };
-    const NEVER: Gain = Gain { most_triangles: 0, most_boxes: 0.0 };
-
-    /// Whether it is in a scene of so many triangles, of whose boxes a line meets so many.
-    pub fn is_in(&self, triangles: usize, boxes_met: f64) -> bool {
-        triangles <= self.most_triangles && boxes_met <= self.most_boxes
+impl Errors {
+    /// Whether the test is the default or faster than that over a structure, in a scene of so many
+    /// triangles, of whose boxes a line meets so many.
+    pub fn pays(&self, over: Over, triangles: usize, boxes_met: f64) -> bool {
+        let gains = triangles <= self.most_triangles && boxes_met <= self.most_boxes;
+        self.method == Method::default() || over == Over::SkipArray && gains
     }
 }
 
@@ -111,7 +92,8 @@ pub const ERRORS: [Errors; 3] = [
         end_on: false,
         depth: 5.0,
         slim: false,
-        skip_array: Gain { most_triangles: 1 << 14, most_boxes: 16.0 },
+        most_triangles: 1 << 14,
+        most_boxes: 16.0,
     },
     Errors {
         method: Method::MollerTrumbore,
@@ -121,7 +103,8 @@ pub const ERRORS: [Errors; 3] = [
         end_on: true,
         depth: 10.0,
         slim: true,
-        skip_array: Gain { most_triangles: usize::MAX, most_boxes: 6.0 },
+        most_triangles: usize::MAX,
+        most_boxes: 6.0,
     },
     Errors {
         method: Method::Watertight,
@@ -131,7 +114,8 @@ pub const ERRORS: [Errors; 3] = [
         end_on: false,
         depth: 8.0,
         slim: true,
-        skip_array: Gain::ALWAYS,
+        most_triangles: usize::MAX,
+        most_boxes: f64::INFINITY,
     },
 ];
 
@@ -154,7 +138,7 @@ mod tests {
         let last = ERRORS[ERRORS.len() - 1];
         assert_eq!(last.method, Method::default());
         for over in [Over::WideNodes, Over::SkipArray, Over::Other] {
-            assert_eq!(last.gain(over), Gain::ALWAYS, "{over:?}");
+            assert!(last.pays(over, usize::MAX, f64::INFINITY), "{over:?}");
         }
     }
 }

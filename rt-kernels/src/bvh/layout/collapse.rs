@@ -31,13 +31,7 @@ pub(super) struct Inner<const N: usize> {
 impl<const N: usize> Subtree<N> {
     /// A node with those children, of which there are two to N.
     pub(super) fn inner(aabb: Aabb, children: Vec<Subtree<N>>) -> Self {
-        let mut shared = [f32::INFINITY; N];
-        for (i, child) in children.iter().enumerate() {
-            shared = match i {
-                0 => std::array::from_fn(|i| child.cost(i)),
-                _ => std::array::from_fn(|i| shared_out(&shared, child, i).1),
-            };
-        }
+        let shared = together(&children);
         // That there are fewer nodes counts where none has a surface.
         let mut least = aabb.half_area().max(f32::MIN_POSITIVE) + shared[N - 1];
         let costs = shared.map(|cost| {
@@ -101,20 +95,24 @@ impl<const N: usize> Inner<N> {
 
     /// Shares `more` children and one out among its own.
     fn part(mut self, mut more: usize, opened: &mut Vec<Subtree<N>>) {
-        // What the first ones cost together, for each number of them.
-        let mut tables = Vec::with_capacity(self.children.len());
-        let mut shared = std::array::from_fn(|i| self.children[0].cost(i));
-        for child in &self.children[1..] {
-            tables.push(shared);
-            shared = std::array::from_fn(|i| shared_out(&shared, child, i).1);
-        }
         while let Some(child) = self.children.pop() {
-            let Some(before) = tables.pop() else { return child.open(more, opened) };
-            let (own, _) = shared_out(&before, &child, more);
+            if self.children.is_empty() {
+                return child.open(more, opened);
+            }
+            let (own, _) = shared_out(&together(&self.children), &child, more);
             child.open(own, opened);
             more -= own + 1;
         }
     }
+}
+
+/// What some subtrees, one or more, cost at least together as one child of a wide node, as up to two,
+/// and so on. Infinite for fewer than they are.
+fn together<const N: usize>(subtrees: &[Subtree<N>]) -> [f32; N] {
+    let (first, others) = subtrees.split_first().expect("one or more");
+    others.iter().fold(std::array::from_fn(|more| first.cost(more)), |before, child| {
+        std::array::from_fn(|more| shared_out(&before, child, more).1)
+    })
 }
 
 /// Of `more` children and one, how many more than one this is to have, if those `before` cost so much

@@ -1,9 +1,9 @@
 //! Nodes of up to N children, 4 or 8, whose boxes are tested at once, one in each lane.
 //!
 //! Which nodes of the build tree are a node's children is chosen for the least surface of all nodes
-//! but the first ([`collapse`](super::collapse)). Subtrees of up to N triangles become one block, whose triangles are
-//! tested at once too: that takes little longer than to test a node, and is quicker than to test them
-//! one by one from the second on.
+//! but the first ([`collapse`](super::collapse)). Subtrees of up to N triangles become one block, whose
+//! triangles are tested at once too: that takes little longer than to test a node, and is quicker than
+//! to test them one by one from the second on.
 //!
 //! A lane without a child has the box from +∞ to −∞. A ray enters it at +∞ and leaves it at −∞ on
 //! every axis, whatever its direction, and so misses it; a box of NaNs would be met by every ray, since
@@ -17,7 +17,7 @@ use std::ops::Range;
 use simd4::{Simd, SimdF32};
 
 use super::MAX_SLOTS;
-use super::collapse::Subtree;
+use super::collapse::{Inner, Subtree};
 use crate::bvh::build::{self, Content, Reference};
 use crate::bvh::refit::Refit;
 use crate::geom::Aabb;
@@ -153,7 +153,7 @@ impl<const N: usize> Wide<N> {
             let (leaves, wide) = (&mut leaves, &mut wide);
             let mut converter = Converter { primitives, references, leaves, wide };
             let children = match converter.subtree(root) {
-                Subtree::Inner(inner) => inner.open_largest(),
+                Subtree::Inner(inner) => open(inner, 1),
                 leaf => vec![leaf],
             };
             converter.node(children, 1);
@@ -321,11 +321,7 @@ impl<const N: usize> Converter<'_, N> {
         for (lane, child) in children.into_iter().enumerate() {
             self.wide.nodes[at].set_box(lane, child.aabb());
             let child = match child {
-                Subtree::Inner(inner) => {
-                    let first = depth < FIRST_DEPTHS;
-                    let children = if first { inner.open_largest() } else { inner.open() };
-                    Child::node(self.node(children, depth + 1))
-                }
+                Subtree::Inner(inner) => Child::node(self.node(open(inner, depth + 1), depth + 1)),
                 Subtree::Leaf(node) => self.leaf(&node, (at, lane)),
             };
             self.wide.nodes[at].children[lane] = child;
@@ -428,6 +424,11 @@ impl<const N: usize> Converter<'_, N> {
             Child::leaf(first..wide.cones.len())
         }
     }
+}
+
+/// The children of a node at that depth; the root's is 1.
+fn open<const N: usize>(inner: Inner<N>, depth: usize) -> Vec<Subtree<N>> {
+    if depth <= FIRST_DEPTHS { inner.open_largest() } else { inner.open() }
 }
 
 /// Two nodes with one half each of some nodes, parted where their boxes' centres are furthest apart.
