@@ -50,8 +50,8 @@ pub enum Over {
     WideNodes,
     /// A BVH as a list with skip pointers.
     SkipArray,
-    /// A kd-tree, where the tests take the same time within a tenth but in a room seen from outside,
-    /// or no structure, which is there to be compared with.
+    /// A kd-tree, where no test gains a twentieth on the default but in a room seen from outside, or no
+    /// structure, which is there to be compared with.
     Other,
 }
 
