@@ -46,8 +46,8 @@ impl Traverse for Brute {
         stats: &mut impl Counters,
     ) {
         let store = &self.store;
-        for slots in store.slots_by_kind() {
-            store.intersect::<K, V, F, Q>(s, slots, packet, frame, query, stats);
+        for slots in &store.slots_by_kind() {
+            store.intersect::<K, V, F, Q>(s, slots.clone(), packet, frame, query, stats);
         }
     }
 

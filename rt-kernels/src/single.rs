@@ -5,7 +5,7 @@ use simd4::{Level, Scalar, Simd, SimdF32, dispatch};
 
 use crate::accelerator::Visitor;
 use crate::bvh::layout::Wide;
-use crate::bvh::traverse::large::{self, Batch};
+use crate::bvh::traverse::large::{self, Batch, Scratch};
 use crate::bvh::traverse::wide::{self, Stack};
 use crate::packet::{Ask, Hits, Packet, Rays, Single};
 use crate::trace::{Traverse, in_frame};
@@ -124,8 +124,9 @@ where
             }
             _ => {
                 let batch = Batch { rays, most: exec.lanes(), any, hits };
+                let mut scratch = Scratch::new(self);
                 dispatch!(exec.level, s => large::trace::<_, <Self as Width>::Vector<_>, _, N>(
-                    s, self, batch, stats
+                    s, self, batch, &mut scratch, stats
                 ));
             }
         }
@@ -136,7 +137,10 @@ fn one_by_one<C: Counters, const N: usize>(wide: &Wide<N>, level: Level, work: W
 where
     Wide<N>: Width,
 {
-    dispatch!(level, s => in_all_lanes::<<Wide<N> as Width>::Vector<_>, _, N>(s, wide, work));
+    let mut stack = Stack::new(wide);
+    dispatch!(level, s => in_all_lanes::<<Wide<N> as Width>::Vector<_>, _, N>(
+        s, wide, work, &mut stack
+    ));
 }
 
 #[inline(always)]
@@ -144,12 +148,12 @@ fn in_all_lanes<V: SimdF32, C: Counters, const N: usize>(
     s: V::Simd,
     wide: &Wide<N>,
     mut work: Work<'_, C>,
+    stack: &mut Stack,
 ) {
-    let mut stack = Stack::new(wide);
     let mut done = C::default();
     for i in 0..work.len() {
         let (ray, ask) = work.get(i);
-        let hit = wide::trace::<V, N>(s, wide, &mut stack, &ray, ask, &mut done);
+        let hit = wide::trace::<V, N>(s, wide, stack, &ray, ask, &mut done);
         work.found(i, hit);
     }
     done.count(|stats| stats.rays_alone += work.len() as u64);

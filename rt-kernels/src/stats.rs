@@ -79,7 +79,7 @@ mod tests {
 
     use super::*;
     use crate::bvh::layout::Wide;
-    use crate::bvh::traverse::large::{self, Batch};
+    use crate::bvh::traverse::large::{self, Batch, Scratch};
     use crate::bvh::{Builder, Sequential, build::Block};
     use crate::geom::{Ray, Sphere};
     use crate::packet::{Hits, Rays};
@@ -99,7 +99,8 @@ mod tests {
             hits.resize(rays.len());
             let batch = Batch { rays, most: 64, any: false, hits: &mut hits };
             let s = Scalar::new();
-            large::trace::<_, <Scalar as Simd>::f32x4, C, 4>(s, wide, batch, counters);
+            let scratch = &mut Scratch::new(wide);
+            large::trace::<_, <Scalar as Simd>::f32x4, C, 4>(s, wide, batch, scratch, counters);
             (0..rays.len()).map(|i| hits.get(i).map(|hit| hit.t.to_bits())).collect()
         }
         let mut stats = Stats::default();

@@ -75,18 +75,10 @@ pub(super) fn trace<S: Simd>(
     rays: &Rays,
     any: bool,
     hits: &mut Hits,
+    scratch: &mut Scratch<'_>,
     stats: &mut Stats,
 ) {
-    let nowhere = Segments { near: [0.0; LARGE], far: [0.0; LARGE] };
-    let step = Step { node: Node::default(), rays: 0, near: 0.0, far: 0.0 };
-    let mut scratch = Scratch {
-        now: nowhere,
-        waiting: vec![Entry { step, segments: nowhere }; MAX_DEPTH],
-        alone: Stack::<f32x1>::new(Scalar::new()),
-    };
-    let mut mail = Mail::new(tree.plan.mailbox, &tree.stamps);
-    let mut mail_alone = Mail::new(tree.plan.mailbox, &tree.stamps);
-    let (mut chunk, mut buckets) = (Box::new(Chunk::default()), Buckets::default());
+    let Scratch { chunk, buckets, mail, mail_alone, cells } = scratch;
     let mut first = 0;
     loop {
         let waited = buckets.take(rays, LARGE, first >= rays.len());
@@ -97,16 +89,15 @@ pub(super) fn trace<S: Simd>(
             first += LARGE;
             if chunk.is_mixed() {
                 chunk.store(hits, first - LARGE);
-                buckets.put(&mut chunk, first - LARGE);
+                buckets.put(chunk, first - LARGE);
                 continue;
             }
         } else {
             break;
         }
         while let Some(class) = chunk.next_class() {
-            let packet = LargePacket::new(&mut chunk, class, any);
-            let (mail, mail_alone, scratch) = (&mut mail, &mut mail_alone, &mut scratch);
-            Traversal { s, tree, packet, mail, mail_alone, scratch, alone: 0, stats }
+            let packet = LargePacket::new(chunk, class, any);
+            Traversal { s, tree, packet, mail, mail_alone, cells, alone: 0, stats }
                 .trace(class.rays);
         }
         if waited {
@@ -117,12 +108,43 @@ pub(super) fn trace<S: Simd>(
     }
 }
 
-/// What a traversal needs besides the rays.
-struct Scratch {
+/// What a traversal needs besides the rays; made before a level is chosen, as that of
+/// [wide nodes](crate::bvh::traverse::large::Scratch) is.
+pub(super) struct Scratch<'m> {
+    chunk: Box<Chunk>,
+    buckets: Buckets,
+    mail: Mail<'m>,
+    mail_alone: Mail<'m>,
+    cells: Cells,
+}
+
+impl<'m> Scratch<'m> {
+    /// Room for any rays in that tree.
+    pub(super) fn new(tree: &'m KdTree) -> Self {
+        let nowhere = Segments { near: [0.0; LARGE], far: [0.0; LARGE] };
+        let step = Step { node: Node::default(), rays: 0, near: 0.0, far: 0.0 };
+        let mail = || Mail::new(tree.plan.mailbox, &tree.stamps);
+        Scratch {
+            chunk: Box::new(Chunk::default()),
+            buckets: Buckets::default(),
+            mail: mail(),
+            mail_alone: mail(),
+            cells: Cells {
+                now: nowhere,
+                waiting: vec![Entry { step, segments: nowhere }; MAX_DEPTH],
+                alone: Stack::new(Scalar::new()),
+            },
+        }
+    }
+}
+
+/// Where a packet is and will be.
+struct Cells {
     /// The segments in the present cell.
     now: Segments,
     /// Cells that are still to be visited, each the sibling of one above the present cell.
     waiting: Vec<Entry>,
+    /// The same for one ray.
     alone: Stack<f32x1>,
 }
 
@@ -133,7 +155,7 @@ struct Traversal<'a, 'm, S: Simd> {
     packet: LargePacket<'a>,
     mail: &'a mut Mail<'m>,
     mail_alone: &'a mut Mail<'m>,
-    scratch: &'a mut Scratch,
+    cells: &'a mut Cells,
     /// The rays that have gone on by themselves.
     alone: u64,
     stats: &'a mut Stats,
@@ -180,7 +202,7 @@ impl<S: Simd> Traversal<'_, '_, S> {
                     (_, 0) => in_first,
                     _ => {
                         self.part(rays, top);
-                        self.scratch.waiting[top].step = in_second;
+                        self.cells.waiting[top].step = in_second;
                         top += 1;
                         in_first
                     }
@@ -219,12 +241,12 @@ impl<S: Simd> Traversal<'_, '_, S> {
                 near = (first * sooner).max(near);
                 far = (last * later).min(far);
             }
-            put::<S>(&mut self.scratch.now.near, g, near);
-            put::<S>(&mut self.scratch.now.far, g, far);
+            put::<S>(&mut self.cells.now.near, g, near);
+            put::<S>(&mut self.cells.now.far, g, far);
         }
         let mut others = !rays;
         while others != 0 {
-            self.scratch.now.near[others.trailing_zeros() as usize] = f32::INFINITY;
+            self.cells.now.near[others.trailing_zeros() as usize] = f32::INFINITY;
             others &= others - 1;
         }
     }
@@ -240,8 +262,8 @@ impl<S: Simd> Traversal<'_, '_, S> {
             if of_group::<S>(rays, g) == 0 {
                 continue;
             }
-            let begin = get::<S>(s, &self.scratch.now.near, g);
-            let end = get::<S>(s, &self.scratch.now.far, g);
+            let begin = get::<S>(s, &self.cells.now.near, g);
+            let end = get::<S>(s, &self.cells.now.far, g);
             let there = begin.le(end);
             left |= to_rays::<S>(there.bitmask(), g);
             least = there.select(begin, least).min(least);
@@ -258,7 +280,7 @@ impl<S: Simd> Traversal<'_, '_, S> {
     fn split(&mut self, axis: usize, at: f32, rays: u64, free: usize) -> [u64; 2] {
         let s = self.s;
         let [sooner, later] = widened::<S>(s);
-        let Scratch { now, waiting, .. } = &mut *self.scratch;
+        let Cells { now, waiting, .. } = &mut *self.cells;
         let other = &mut waiting[free].segments;
         let at = S::f32s::splat(s, at);
         let mut to = [0; 2];
@@ -283,7 +305,7 @@ impl<S: Simd> Traversal<'_, '_, S> {
     #[inline(always)]
     fn part(&mut self, rays: u64, free: usize) {
         let s = self.s;
-        let Scratch { now, waiting, .. } = &mut *self.scratch;
+        let Cells { now, waiting, .. } = &mut *self.cells;
         let other = &mut waiting[free].segments;
         for g in 0..self.packet.groups::<S::f32s>() {
             if of_group::<S>(rays, g) == 0 {
@@ -299,7 +321,7 @@ impl<S: Simd> Traversal<'_, '_, S> {
     #[inline(always)]
     fn resume(&mut self, top: usize) -> Option<Step> {
         let s = self.s;
-        let Scratch { now, waiting, .. } = &mut *self.scratch;
+        let Cells { now, waiting, .. } = &mut *self.cells;
         let Entry { step, segments } = &waiting[top];
         for g in 0..self.packet.groups::<S::f32s>() {
             if of_group::<S>(step.rays, g) == 0 {
@@ -381,14 +403,14 @@ impl<S: Simd> Traversal<'_, '_, S> {
             let (packet, frame) = self.packet.ray::<f32x1>(s, ray);
             let ask = if self.packet.any() { Ask::Any } else { Ask::Closest };
             let mut query = Single::from_hit(s, self.packet.hit(ray), ask);
-            let Segments { near, far } = &self.scratch.now;
+            let Segments { near, far } = &self.cells.now;
             let (near, far) = (f32x1::splat(s, near[ray]), f32x1::splat(s, far[ray]));
             let cell = Cell { node, near, far };
             self.mail_alone.next_packet();
             cells(
                 s,
                 self.tree,
-                &mut self.scratch.alone,
+                &mut self.cells.alone,
                 self.mail_alone,
                 &packet,
                 (&frame, planes.negative),

@@ -67,7 +67,10 @@ impl KdTree {
             PacketSize::Large => {
                 let Batch { rays, any, hits, stats } = batch;
                 let mut done = Stats::default();
-                dispatch!(exec.level, s => large::trace(s, self, rays, *any, hits, &mut done));
+                let mut scratch = large::Scratch::new(self);
+                dispatch!(exec.level, s => large::trace(
+                    s, self, rays, *any, hits, &mut scratch, &mut done
+                ));
                 **stats += done;
             }
             PacketSize::Single => {
@@ -76,11 +79,15 @@ impl KdTree {
                     .map(|i| (rays.get(i), if *any { Ask::Any } else { Ask::Closest }));
                 single(self, &mut asks, &mut |i, hit| hits.set(i, hit), stats);
             }
-            _ => match exec.lanes() {
-                4 => dispatch!(exec.level, s => four(s, self, batch)),
-                8 => dispatch!(exec.level, s => eight(s, self, batch)),
-                _ => dispatch!(exec.level, s => native(s, self, batch)),
-            },
+            _ => {
+                let mut mail = Mail::new(self.plan.mailbox, &self.stamps);
+                let mail = &mut mail;
+                match exec.lanes() {
+                    4 => dispatch!(exec.level, s => four(s, self, batch, mail)),
+                    8 => dispatch!(exec.level, s => eight(s, self, batch, mail)),
+                    _ => dispatch!(exec.level, s => native(s, self, batch, mail)),
+                }
+            }
         }
     }
 }
@@ -109,35 +116,34 @@ fn single<'a>(
 // There is code only for what can come, and for no type twice.
 
 #[inline(always)]
-fn native<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>) {
+fn native<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>, mail: &mut Mail<'_>) {
     if const { S::LANES != 4 && S::LANES != 8 } {
-        packets::<S::f32s>(s, tree, batch);
+        packets::<S::f32s>(s, tree, batch, mail);
     }
 }
 
 #[inline(always)]
-fn four<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>) {
-    packets::<S::f32x4>(s, tree, batch);
+fn four<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>, mail: &mut Mail<'_>) {
+    packets::<S::f32x4>(s, tree, batch, mail);
 }
 
 #[inline(always)]
-fn eight<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>) {
+fn eight<S: Simd>(s: S, tree: &KdTree, batch: &mut Batch<'_>, mail: &mut Mail<'_>) {
     if const { S::LANES >= 8 } {
-        packets::<S::f32x8>(s, tree, batch);
+        packets::<S::f32x8>(s, tree, batch, mail);
     }
 }
 
 #[inline(always)]
-fn packets<V: SimdF32>(s: V::Simd, tree: &KdTree, batch: &mut Batch<'_>) {
+fn packets<V: SimdF32>(s: V::Simd, tree: &KdTree, batch: &mut Batch<'_>, mail: &mut Mail<'_>) {
     let Batch { rays, any, hits, stats } = batch;
     let mut stack = Stack::<V>::new(s);
-    let mut mail = Mail::new(tree.plan.mailbox, &tree.stamps);
     let mut done = Stats::default();
     let mut first = 0;
     while first < rays.len() {
         let packet = Packet::<V>::load(s, rays, first);
         let mut query = Either::new(s, &packet, *any);
-        traverse(s, tree, &mut stack, &mut mail, &packet, &mut query, &mut done);
+        traverse(s, tree, &mut stack, mail, &packet, &mut query, &mut done);
         query.store(hits, first);
         first += V::LANES;
     }

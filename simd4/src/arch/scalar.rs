@@ -2,11 +2,11 @@
 //! "FPU emulation" (Geimer and Müller 2003, Section 2).
 
 use crate::simd::sealed::Sealed;
+use crate::types::array::{Lane, each_lane};
 use crate::types::reduce::Fold;
 use crate::types::{Join, conversions, operators, unary_operator};
 use crate::{
-    Guaranteed, LaneArray, Lanes, Level, Simd, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide,
-    spec,
+    Guaranteed, Lanes, Level, Simd, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide, spec,
 };
 
 /// The token of the level `scalar`, which every CPU has.
@@ -110,27 +110,34 @@ pub use names::*;
 impl<T, const N: usize> Sealed for Vector<T, N> {}
 impl<const N: usize> Sealed for Mask<N> {}
 
-#[inline(always)]
-fn map<A: Copy, R: Copy + Default + Send + Sync + 'static, const N: usize>(
-    a: [A; N],
-    f: impl Fn(A) -> R,
-) -> [R; N] {
-    LaneArray::from_fn(
-        #[inline(always)]
-        |i| f(a[i]),
-    )
+/// Every lane from its number, without a closure.
+macro_rules! lanes {
+    (|$i:ident| $lane:expr) => {{
+        let mut r = const { [Lane::NOTHING; N] };
+        each_lane!(N, |$i| r[$i] = $lane);
+        r
+    }};
 }
 
 #[inline(always)]
-fn map2<A: Copy, R: Copy + Default + Send + Sync + 'static, const N: usize>(
-    a: [A; N],
-    b: [A; N],
-    f: impl Fn(A, A) -> R,
-) -> [R; N] {
-    LaneArray::from_fn(
-        #[inline(always)]
-        |i| f(a[i], b[i]),
-    )
+fn map<A: Copy, R: Lane, const N: usize>(a: [A; N], f: impl Fn(A) -> R) -> [R; N] {
+    lanes!(|i| f(a[i]))
+}
+
+#[inline(always)]
+fn map2<A: Copy, R: Lane, const N: usize>(a: [A; N], b: [A; N], f: impl Fn(A, A) -> R) -> [R; N] {
+    lanes!(|i| f(a[i], b[i]))
+}
+
+/// Folds the lanes from `n` on into those before, if there are so many.
+#[inline(always)]
+fn fold_at<F: Fold, T: Copy, const N: usize>(n: usize, a: &mut [T; N])
+where
+    Vector<T, 1>: Lanes,
+{
+    each_lane!(N, |i| if i < n && i + n < N {
+        [a[i]] = F::fold(Vector([a[i]]), Vector([a[i + n]])).0;
+    });
 }
 
 /// Methods that apply a function to every lane.
@@ -138,10 +145,7 @@ macro_rules! mapped {
     ($($method:ident($($arg:ident),*) = $f:expr;)*) => {$(
         #[inline(always)]
         fn $method(self, $($arg: Self),*) -> Self {
-            Vector(LaneArray::from_fn(
-                #[inline(always)]
-                |i| $f(self.0[i], $($arg.0[i]),*),
-            ))
+            Vector(lanes!(|i| $f(self.0[i], $($arg.0[i]),*)))
         }
     )*};
 }
@@ -163,7 +167,8 @@ macro_rules! numbers {
             }
             #[inline(always)]
             fn splat(_: Scalar, x: $elem) -> Self {
-                Vector([x; N])
+                // `[x; N]` would be a loop.
+                Vector(lanes!(|_i| x))
             }
             #[inline(always)]
             fn from_array(_: Scalar, a: [$elem; N]) -> Self {
@@ -193,23 +198,15 @@ macro_rules! numbers {
             }
             #[inline(always)]
             fn select(m: Mask<N>, a: Self, b: Self) -> Self {
-                Vector(LaneArray::from_fn(
-                    #[inline(always)]
-                    |i| spec::select(m.0[i], a.0[i], b.0[i]),
-                ))
+                Vector(lanes!(|i| spec::select(m.0[i], a.0[i], b.0[i])))
             }
             #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
-                let (mut a, mut n) = (self.0, N);
-                while n > 1 {
-                    n /= 2;
-                    let mut i = 0;
-                    while i < n {
-                        let [folded] = F::fold(Vector([a[i]]), Vector([a[i + n]])).0;
-                        a[i] = folded;
-                        i += 1;
-                    }
-                }
+                let mut a = self.0;
+                fold_at::<F, _, N>(8, &mut a);
+                fold_at::<F, _, N>(4, &mut a);
+                fold_at::<F, _, N>(2, &mut a);
+                fold_at::<F, _, N>(1, &mut a);
                 a[0]
             }
         }
@@ -358,7 +355,7 @@ impl<const N: usize> SimdMask for Mask<N> {
     }
     #[inline(always)]
     fn splat(_: Scalar, b: bool) -> Self {
-        Mask([b; N])
+        Mask(lanes!(|_i| b))
     }
     #[inline(always)]
     fn from_array(_: Scalar, a: [bool; N]) -> Self {
@@ -370,7 +367,9 @@ impl<const N: usize> SimdMask for Mask<N> {
     }
     #[inline(always)]
     fn bitmask(self) -> u32 {
-        (0..N).fold(0, |bits, i| bits | u32::from(self.0[i]) << i)
+        let mut bits = 0;
+        each_lane!(N, |i| bits |= u32::from(self.0[i]) << i);
+        bits
     }
 }
 

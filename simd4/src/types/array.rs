@@ -5,10 +5,25 @@ use core::fmt::Debug;
 
 use crate::simd::sealed::Sealed;
 
+/// Does something for the number of every lane, in their order. Written out: a loop would first
+/// have to be unrolled before arrays can be registers, and the compiler gets lost in kernels that
+/// are made of thousands of them.
+macro_rules! each_lane {
+    ($lanes:expr, |$i:ident| $body:expr) => {{
+        const { assert!($lanes <= 16, "a vector has at most sixteen lanes") };
+        each_lane!(@ $lanes, $i, $body, 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
+    }};
+    (@ $lanes:expr, $i:ident, $body:expr, $($number:literal)*) => {{$(
+        if $number < $lanes {
+            let $i = $number;
+            $body;
+        }
+    )*}};
+}
+pub(crate) use each_lane;
+
 /// A number that fits in a lane of 32 bits.
-pub trait Element:
-    Copy + Default + PartialEq + PartialOrd + Debug + Send + Sync + Sealed + 'static
-{
+pub trait Element: Lane + Default + PartialEq + PartialOrd + Debug + Sealed {
     /// No number is less: −∞ for `f32`.
     const LEAST: Self;
     /// No number is greater: +∞ for `f32`.
@@ -21,6 +36,9 @@ pub trait Element:
 macro_rules! element {
     ($elem:ty, $least:expr, $greatest:expr) => {
         impl Sealed for $elem {}
+        impl Lane for $elem {
+            const NOTHING: Self = 0 as $elem;
+        }
         impl Element for $elem {
             const LEAST: Self = $least;
             const GREATEST: Self = $greatest;
@@ -35,6 +53,16 @@ macro_rules! element {
 element!(f32, f32::NEG_INFINITY, f32::INFINITY);
 element!(i32, i32::MIN, i32::MAX);
 element!(u32, u32::MIN, u32::MAX);
+
+/// What a lane holds: a number or truth.
+pub trait Lane: Copy + Send + Sync + 'static {
+    /// All bits 0.
+    const NOTHING: Self;
+}
+
+impl Lane for bool {
+    const NOTHING: bool = false;
+}
 
 /// All lanes of a vector, lane 0 first.
 pub trait LaneArray<T>:
@@ -51,20 +79,12 @@ pub trait LaneArray<T>:
     fn from_fn(lane: impl Fn(usize) -> T) -> Self;
 }
 
-impl<T: Copy + Default + Send + Sync + 'static, const N: usize> LaneArray<T> for [T; N] {
+impl<T: Lane, const N: usize> LaneArray<T> for [T; N] {
     #[inline(always)]
     fn from_fn(lane: impl Fn(usize) -> T) -> Self {
-        const { assert!(N <= 16, "a vector has at most sixteen lanes") };
-        let mut a = [T::default(); N];
-        // Written out: a loop would first have to be unrolled before the array can be registers.
-        macro_rules! lanes {
-            ($($i:literal)*) => {$(
-                if $i < N {
-                    a[$i] = lane($i);
-                }
-            )*};
-        }
-        lanes!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
+        // A constant: to repeat a value takes a loop, and every operation here would have one.
+        let mut a = const { [T::NOTHING; N] };
+        each_lane!(N, |i| a[i] = lane(i));
         a
     }
 }

@@ -1,5 +1,6 @@
 //! Twice the lanes out of two registers, for levels whose registers are narrower.
 
+use super::array::Lane;
 use super::reduce::Fold;
 use super::{
     LaneArray, Lanes, SimdF32, SimdI32, SimdInt, SimdMask, SimdU32, Wide, operators, unary_operator,
@@ -25,7 +26,7 @@ pub trait Join<T>: LaneArray<T> {
 
 macro_rules! join {
     ($half:literal + $other:literal) => {
-        impl<T: Copy + Default + Send + Sync + 'static> Join<T> for [T; $half] {
+        impl<T: Lane> Join<T> for [T; $half] {
             type Joined = [T; $half + $other];
             #[inline(always)]
             fn join(low: Self, high: Self) -> Self::Joined {

@@ -1,7 +1,7 @@
 //! The types' contracts: what all numbers share ([`Lanes`]), what each kind of element adds, and
 //! the pair of registers that makes a type of twice the width.
 
-mod array;
+pub(crate) mod array;
 mod f32;
 mod halves;
 mod int;

@@ -51,7 +51,8 @@ pub(crate) struct Batch<'a> {
     pub(crate) hits: &'a mut Hits,
 }
 
-/// What a traversal needs besides the rays.
+/// What a traversal needs besides the rays. Made before a level is chosen: where nothing is to be
+/// dropped, no operation of a level needs a way out, and the compiler has half the work.
 pub(crate) struct Scratch {
     chunk: Box<Chunk>,
     buckets: Buckets,
@@ -88,11 +89,12 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
     s: S,
     wide: &Wide<N>,
     batch: Batch<'_>,
+    scratch: &mut Scratch,
     stats: &mut C,
 ) {
     let Batch { rays, most, any, hits } = batch;
     let mut done = C::default();
-    let Scratch { mut chunk, mut buckets, mut large, mut single } = Scratch::new(wide);
+    let Scratch { chunk, buckets, large, single } = scratch;
     let mut first = 0;
     loop {
         let mut mixed = false;
@@ -105,15 +107,15 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
             mixed = chunk.is_mixed();
             if mixed && S::LANES >= SORTED {
                 chunk.store(hits, first - most);
-                buckets.put(&mut chunk, first - most);
+                buckets.put(chunk, first - most);
                 continue;
             }
         } else {
             break;
         }
         while let Some(class) = chunk.next_class() {
-            let packet = LargePacket::new(&mut chunk, class, any);
-            let (large, single, stats) = (&mut *large, &mut single, &mut done);
+            let packet = LargePacket::new(chunk, class, any);
+            let (large, single, stats) = (&mut **large, &mut *single, &mut done);
             Traversal { s, wide, large, single, packet, alone: 0, stats }
                 .trace::<B>(class.rays, mixed);
         }
