@@ -23,7 +23,7 @@ pub(crate) static TARGETS: &[Target] = &[
     // what at each of the others; where this can be done, and when it is.
 
     // The machine itself.
-    target("native",        NATIVE,      Directly,                           OfThisCpu,                                   Everything,  Some(Workspace),   Any,           EveryRun),
+    target("native",        NATIVE,      Directly,                           OfThisCpu,                                   Everything,  Some(Core),        Any,           EveryRun),
     // Lesser CPUs: an instruction that one lacks kills the program. SandyBridge has AVX, but no
     // FMA: it must fall back to SSE4.1.
     target("qemu64",        NATIVE,      qemu("x86_64", "qemu64"),           These(&["scalar", "sse2"]),                  Brief,       None,              LinuxX86,      EveryRun),

@@ -1,7 +1,7 @@
 //! The programs of a build: made once, run on every machine and at every level that they are for.
 
 use crate::cross::{cargo, runner};
-use crate::matrix::{Build, CORE, LONG, Run, Target, Tests};
+use crate::matrix::{CORE, LONG, Run, Target, Tests};
 use crate::report::{Done, Tally, skips};
 use serde_json::Value;
 use std::ffi::OsString;
@@ -18,6 +18,8 @@ pub(crate) struct Programs {
     levels: Option<PathBuf>,
     /// All others, which tests may run.
     pub(crate) others: Vec<PathBuf>,
+    /// What cargo was told to build them so.
+    settings: Vec<(&'static str, String)>,
 }
 
 /// A program made of tests.
@@ -29,31 +31,50 @@ pub(crate) struct TestProgram {
     pub(crate) file: PathBuf,
 }
 
+const LTO: &str = "CARGO_PROFILE_DEV_LTO";
+
+/// Spares LLVM, where it inlines, to note which references were known to be apart. Kernels are all
+/// inlined, by value: the notes are a fifth of the work, and nothing comes of them.
+const WITHOUT_NOTES: &str = "-Cllvm-args=-enable-noalias-to-md-conversion=false";
+
+/// How cargo is told to build what nobody edits and builds again in a loop, or debugs: in one go,
+/// without benches and the places of lines, and without what takes longer than tests gain by it.
+fn settings_in_one_go(sh: &Shell, rustflags: &str) -> Vec<(&'static str, String)> {
+    let probe = cmd!(sh, "rustc {WITHOUT_NOTES} --crate-type rlib --emit metadata=- -");
+    // LLVM's flags come and go.
+    let known = probe.stdin("").quiet().ignore_stdout().ignore_stderr().run().is_ok();
+    let without_notes = if known { WITHOUT_NOTES } else { "" };
+    let flags = [rustflags, "--cfg without_benches", without_notes];
+    vec![
+        ("CARGO_INCREMENTAL", "0".to_owned()),
+        ("CARGO_PROFILE_DEV_DEBUG", "0".to_owned()),
+        (LTO, "off".to_owned()),
+        ("RUSTFLAGS", flags.join(" ").trim().to_owned()),
+    ]
+}
+
 impl Programs {
-    /// Builds all that any target with this build runs.
-    pub(crate) fn build(sh: &Shell, target: &Target) -> Result<Programs, String> {
+    /// Builds all that any target with this build runs; as cargo does it anyway, or `in_one_go`.
+    pub(crate) fn build(sh: &Shell, target: &Target, in_one_go: bool) -> Result<Programs, String> {
         let mut command = cargo(sh, target, "test").args(["--locked", "--no-run"]);
         command = match target.of_workspace() {
             true => command.arg("--workspace"),
             false => command.args(CORE.iter().flat_map(|name| ["-p", name])),
         };
-        if target.build != Build::default() {
-            // Nobody edits and builds again for these in a loop, or debugs them: in one go and
-            // without the places of lines it is quicker.
-            command = command.env("CARGO_INCREMENTAL", "0").env("CARGO_PROFILE_DEV_DEBUG", "0");
-            if let Run::Directly = target.run {
-                // To optimise across the units of a crate takes longer than the tests gain by it,
-                // unless they are emulated.
-                command = command.env("CARGO_PROFILE_DEV_LTO", "off");
-            }
-            let flags = format!("{} --cfg without_benches", target.build.rustflags);
-            command = command.env("RUSTFLAGS", flags.trim_start());
+        let mut settings = match in_one_go {
+            true => settings_in_one_go(sh, target.build.rustflags),
+            false => vec![],
+        };
+        if !matches!(target.run, Run::Directly) {
+            // Optimised across the units of a crate, for emulators' sake.
+            settings.retain(|(variable, _)| *variable != LTO);
         }
+        command = command.envs(settings.iter().cloned());
         if target.of_workspace() && target.build.triple.is_some() {
             // A tool of the host.
             command = command.args(["--exclude", "xtask"]);
         }
-        Programs::made_by(command)
+        Ok(Programs { settings, ..Programs::made_by(command)? })
     }
 
     /// Runs a cargo command that builds, and picks what it made out of its messages.
@@ -124,7 +145,8 @@ impl Programs {
             }
         }
         if tests == Tests::Everything {
-            commands.push(cmd!(sh, "cargo test --quiet --locked --workspace --doc").into());
+            let docs = cmd!(sh, "cargo test --quiet --locked --workspace --doc");
+            commands.push(docs.envs(self.settings.iter().cloned()).into());
         }
         let mut sum = Tally::default();
         let mut skipped = Vec::new();
