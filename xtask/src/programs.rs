@@ -1,7 +1,7 @@
 //! The programs of a build: made once, run on every machine and at every level that they are for.
 
 use crate::cross::{cargo, runner};
-use crate::matrix::{CORE, LONG, Run, Target, Tests};
+use crate::matrix::{Build, CORE, LONG, Run, Target, Tests};
 use crate::report::{Done, Tally, skips};
 use serde_json::Value;
 use std::ffi::OsString;
@@ -65,8 +65,9 @@ impl Programs {
             true => settings_in_one_go(sh, target.build.rustflags),
             false => vec![],
         };
-        if !matches!(target.run, Run::Directly) {
-            // Optimised across the units of a crate, for emulators' sake.
+        if target.build == Build::default() || !matches!(target.run, Run::Directly) {
+            // Optimised across the units of a crate: for emulators' sake, which run the host's own
+            // programs too.
             settings.retain(|(variable, _)| *variable != LTO);
         }
         command = command.envs(settings.iter().cloned());
