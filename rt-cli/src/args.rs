@@ -222,6 +222,7 @@ impl PrecisionArgs {
             KernelArg::Watertight => Method::Watertight,
             KernelArg::MollerTrumbore => Method::MollerTrumbore,
             KernelArg::Wald => Method::Wald,
+            KernelArg::Plucker => Method::Plucker,
         }
     }
 }
@@ -403,6 +404,8 @@ enum KernelArg {
     MollerTrumbore,
     /// Of Wald, precomputed: leaks at edges, more so far from the origin.
     Wald,
+    /// Of volumes relative to the ray: leaks at vertices.
+    Plucker,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]

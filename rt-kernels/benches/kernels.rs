@@ -8,7 +8,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec3;
 use rt_kernels::catalogue::{Listed, Shape, Way};
-use rt_kernels::geom::{Aabb, Curved, Sphere, Triangle};
+use rt_kernels::geom::{Aabb, Cone, Curved, Sphere, Triangle};
 use rt_kernels::slab::{BoxSet, Crossings};
 use rt_kernels::{Hits, Ray, Rays, quadric, slab, tri};
 
@@ -102,9 +102,15 @@ fn boxes(criterion: &mut Criterion) {
 fn quadrics(criterion: &mut Criterion) {
     let sphere = |i| Curved::Sphere(Sphere { center: scattered(i), radius: 0.25 });
     let spheres: Vec<_> = (0..N).map(sphere).collect();
+    let cone = |i| {
+        let (base, apex) = (scattered(i), scattered(i) + Vec3::new(0.1, 0.2, 0.3));
+        Curved::Cone(Cone { base, base_radius: 0.25, apex, apex_radius: 0.125 })
+    };
+    let cones: Vec<_> = (0..N).map(cone).collect();
     let rays = rays();
     for kernel in quadric::catalogue() {
-        let surfaces = kernel.surfaces(&spheres).expect("every kernel takes a sphere");
+        let surfaces = kernel.surfaces(&spheres).or_else(|| kernel.surfaces(&cones));
+        let surfaces = surfaces.expect("every kernel takes spheres or cones");
         let run = |way, found: &mut Hits| kernel.closest(way, &surfaces, &rays, found);
         each_way(criterion, "quadric", kernel, run, hits);
     }

@@ -6,7 +6,7 @@ use rt_kernels::camera::Pinhole;
 use rt_kernels::geom::Triangle;
 use rt_kernels::tri::Method;
 use rt_kernels::{Brute, Bvh, Exec, Plan, Primitives, Ray, Rays, Sequential};
-use rt_render::precision::{Choice, Facts, Over, Prediction, choose, predict};
+use rt_render::precision::{Choice, ERRORS, Facts, Over, Prediction, choose, predict};
 use rt_render::{bounds, fitted_view};
 use rt_scene::{Scene, View, spd};
 use rt_tests::hash::fnv1a;
@@ -57,7 +57,7 @@ fn hard(kind: usize, random: &mut Random) -> (Vec3, [Vec3; 3]) {
 const KINDS: usize = 6;
 
 /// What the program foretells of a triangle that is alone in the world.
-fn foretold(eye: Vec3, corners: [Vec3; 3]) -> [Prediction; 3] {
+fn foretold(eye: Vec3, corners: [Vec3; 3]) -> [Prediction; ERRORS.len()] {
     let mut scene = Scene::default();
     scene.mesh.positions = corners.to_vec();
     let triangle = rt_scene::Triangle { position: [0, 1, 2], normal: None, uv: None, material: 0 };

@@ -52,6 +52,18 @@ impl Texture {
         &self.pixels
     }
 
+    /// The same picture as a PNG file.
+    pub fn to_png(&self) -> Vec<u8> {
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, self.width(), self.height());
+        encoder.set_color(png::ColorType::Rgb);
+        let written = encoder
+            .write_header()
+            .and_then(|mut writer| writer.write_image_data(self.pixels.as_flattened()));
+        written.expect("a picture has pixels, and memory takes all that is written");
+        file
+    }
+
     /// Reads a PNG or JPEG file. What it claims to hold is believed only as far as a file of its
     /// length can hold it.
     pub(crate) fn decode(bytes: &[u8]) -> Result<Texture, String> {

@@ -7,7 +7,7 @@ use rt_scene::Scene;
 use super::{Output, format};
 use crate::error::Error;
 
-/// A place for a scene: a file and, beside an OBJ, its materials.
+/// A place for a scene: a file and, beside an OBJ, its materials and their pictures.
 pub(crate) struct SceneOutput {
     path: PathBuf,
     output: Output,
@@ -39,8 +39,18 @@ impl SceneOutput {
         match self.library {
             Some((name, library)) => {
                 rt_scene::obj::write(scene, Some(&name), &mut text)?;
+                let (mut pictures, mut names) = (Vec::new(), Vec::new());
+                for (number, texture) in scene.textures.iter().enumerate() {
+                    let beside = self.path.with_extension(format!("{number}.png"));
+                    let name = beside.file_name().map(|name| name.to_string_lossy().into_owned());
+                    names.extend(name);
+                    pictures.push((Output::open(&beside)?, texture));
+                }
                 let mut materials = Vec::new();
-                rt_scene::obj::write_library(scene, &mut materials)?;
+                rt_scene::obj::write_library(scene, &names, &mut materials)?;
+                for (output, texture) in pictures {
+                    output.write(&texture.to_png())?;
+                }
                 library.write(&materials)?;
             }
             None => rt_scene::nff::write(scene, &mut text)?,

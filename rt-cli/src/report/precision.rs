@@ -28,9 +28,13 @@ impl Kernel {
             Kernel::Asked(_) => format!("{name} kernel"),
             Kernel::Chosen(choice, over, tolerance) => {
                 let pixels = digits(choice.prediction().pixels);
+                let stays = |p: &Prediction| p.method != choice.method && p.pixels < *tolerance;
                 let why = match (choice.method, over) {
                     (Method::Watertight, Over::WideNodes) => {
                         "over wide nodes none is cheaper".into()
+                    }
+                    (Method::Watertight, _) if choice.predictions.iter().any(stays) => {
+                        format!("none that stays under {tolerance} px is cheaper here")
                     }
                     (Method::Watertight, _) => format!("no cheaper one stays under {tolerance} px"),
                     _ => format!("off by at most {pixels} px, tolerance {tolerance} px"),

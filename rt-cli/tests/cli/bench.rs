@@ -94,7 +94,7 @@ fn kernels_are_told_side_by_side() {
     let json: Value = serde_json::from_slice(&scratch.bytes("b.json")).unwrap();
     let rows = json["rows"].as_array().unwrap();
     let kernels: Vec<_> = rows.iter().map(|row| row["kernel"].as_str().unwrap()).collect();
-    assert_eq!(kernels, ["watertight", "moller-trumbore", "wald"]);
+    assert_eq!(kernels, ["watertight", "moller-trumbore", "wald", "plucker"]);
     let lines: Vec<_> = table.lines().collect();
     let width = lines[0].chars().count();
     assert!(width <= 80 && lines.iter().all(|line| line.chars().count() == width), "{table}");

@@ -38,6 +38,25 @@ fn a_converted_scene_looks_the_same() {
 }
 
 #[test]
+fn textures_go_with_their_scene() {
+    let scratch = Scratch::new();
+    std::fs::create_dir(scratch.path("far")).unwrap();
+    let corners = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    let face = "mtllib a.mtl\nusemtl m\nf 1/1 2/2 3/3 4/4\n";
+    scratch.file("far/a.obj", format!("{corners}{face}"));
+    scratch.file("far/a.mtl", "newmtl m\nmap_Kd -s 2 2 chess.png\n");
+    // Any picture will do.
+    scratch.rt(&["render", "spd:balls:1", "-s", "8x8", "-q", "-o", "far/chess.png"]).exits(0);
+    let run = scratch.rt(&["convert", "far/a.obj", "-o", "b.obj"]).exits(0);
+    assert_eq!(run.stderr, "b.obj: 2 triangles, 1 material\n");
+    assert_eq!(scratch.names(), ["b.0.png", "b.mtl", "b.obj", "far"]);
+    let look = ["-s", "40x40"];
+    let drawn = pixels(&scratch, "far/a.obj", &look);
+    assert!(pixels(&scratch, "b.obj", &look) == drawn);
+    assert!(pixels(&scratch, "b.obj", &[&look[..], &["--no-textures"]].concat()) != drawn);
+}
+
+#[test]
 fn nff_holds_all_of_an_nff() {
     let scratch = Scratch::new();
     for scene in ["spd:balls:1", "spd:mount:2", "spd:rings:1", "spd:tree:2"] {

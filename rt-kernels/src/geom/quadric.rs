@@ -2,7 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
-use super::Sphere;
+use super::{Cone, Sphere};
 
 /// The points x with (x − center) · M (x − center) = level, M symmetric, cut off between two
 /// planes: spheres, ellipsoids, cylinders, cones, and what is bent like a saddle. Rays hit it from
@@ -90,6 +90,8 @@ fn across(axis: glam::DVec3, share: f64) -> [f32; 6] {
 pub enum Curved {
     /// A whole sphere.
     Sphere(Sphere),
-    /// Anything else of the second order.
+    /// Anything of the second order.
     Quadric(Quadric),
+    /// The mantle of a truncated cone, or a cylinder.
+    Cone(Cone),
 }

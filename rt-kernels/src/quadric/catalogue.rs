@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use super::form::{Ball, Central, World};
 use super::sweep::{self, Surfaces};
-use super::{OwnBoxSphere, QuadricKernel, Residual, Stable, Textbook};
+use super::{OwnBoxCone, OwnBoxSphere, QuadricKernel, Residual, Stable, Textbook};
 use crate::catalogue::{Listed, Shape, Way};
 use crate::geom::Curved;
 use crate::packet::{Hits, Rays};
@@ -37,7 +37,7 @@ impl<K: QuadricKernel> Listed for Entry<K> {
     }
 
     fn is_default(&self) -> bool {
-        TypeId::of::<K>() == TypeId::of::<OwnBoxSphere>()
+        [TypeId::of::<OwnBoxSphere>(), TypeId::of::<OwnBoxCone>()].contains(&TypeId::of::<K>())
     }
 
     /// None estimates.
@@ -83,5 +83,6 @@ pub fn catalogue() -> Vec<&'static dyn QuadricTest> {
         Residual;
     }
     all.push(&Entry::<OwnBoxSphere>(PhantomData));
+    all.push(&Entry::<OwnBoxCone>(PhantomData));
     all
 }

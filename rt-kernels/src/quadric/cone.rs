@@ -31,28 +31,28 @@
 use simd4::math::Vec3;
 use simd4::{Lanes, SimdF32, SimdMask};
 
-use super::Found;
 use super::stable::q_roots;
-use crate::geom::{Aabb, Cone};
-use crate::packet::{Frame, Packet, Query};
+use super::{Found, QuadricKernel, Record, Records};
+use crate::geom::{Aabb, Cone, Curved};
+use crate::packet::{Boxes, Frame, Packet, Query};
 use crate::slab::robust;
 
 /// A cone as leaves hold it: 68 bytes.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ConeRecord {
-    base: [f32; 3],
+    pub(super) base: [f32; 3],
     /// Of unit length.
-    axis: [f32; 3],
+    pub(super) axis: [f32; 3],
     /// From base to apex.
-    height: f32,
+    pub(super) height: f32,
     /// The cosine of half the angle at the tip.
-    cos: f32,
+    pub(super) cos: f32,
     /// Its sine: negative if the apex is the narrower end.
-    sin: f32,
+    pub(super) sin: f32,
     /// The radius at the base, times the cosine.
-    radius: f32,
-    own_box: Aabb,
+    pub(super) radius: f32,
+    pub(super) own_box: Aabb,
     /// The primitive's number.
     pub(crate) prim: u32,
 }
@@ -78,6 +78,56 @@ impl ConeRecord {
     }
 }
 
+/// The test that renders, as a kernel among others. The [module](self) has the rest.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnBoxCone;
+
+impl QuadricKernel for OwnBoxCone {
+    const NAME: &'static str = "Lagrange";
+    const FRAMED: bool = true;
+
+    fn variant() -> String {
+        "cone, own box".to_string()
+    }
+
+    fn record(surface: &Curved, prim: u32) -> Option<Record> {
+        let Curved::Cone(cone) = surface else { return None };
+        Some(Record::cone(&ConeRecord::new(cone, prim)))
+    }
+
+    #[inline(always)]
+    fn test<V: SimdF32, F: Frame<V>, R: Records<V>>(
+        s: V::Simd,
+        records: &R,
+        packet: &Packet<V>,
+        frame: &F,
+        limit: V,
+    ) -> Option<Found<V>> {
+        let [cos, sin, radius] = records.opening(s);
+        let (base, axis, height) = (records.center(s), records.axis(s), records.size(s));
+        let mantle = Mantle { base, axis, height, cos, sin, radius };
+        test(
+            s,
+            &mantle,
+            #[inline(always)]
+            || records.cone_boxes(s),
+            packet,
+            frame,
+            limit,
+        )
+    }
+}
+
+/// One cone in all lanes, or each lane its own: the numbers of a [`ConeRecord`].
+struct Mantle<V> {
+    base: Vec3<V>,
+    axis: Vec3<V>,
+    height: V,
+    cos: V,
+    sin: V,
+    radius: V,
+}
+
 /// Tests a packet against one cone and records the hits.
 #[inline(always)]
 pub fn intersect<V: SimdF32, F: Frame<V>, Q: Query<V>>(
@@ -87,30 +137,48 @@ pub fn intersect<V: SimdF32, F: Frame<V>, Q: Query<V>>(
     frame: &F,
     query: &mut Q,
 ) {
-    if let Some(Found { mask, t }) = test(s, record, packet, frame, query.limit()) {
+    let mantle = Mantle {
+        base: Vec3::splat(s, record.base),
+        axis: Vec3::splat(s, record.axis),
+        height: V::splat(s, record.height),
+        cos: V::splat(s, record.cos),
+        sin: V::splat(s, record.sin),
+        radius: V::splat(s, record.radius),
+    };
+    let found = test(
+        s,
+        &mantle,
+        #[inline(always)]
+        || record.own_box,
+        packet,
+        frame,
+        query.limit(),
+    );
+    if let Some(Found { mask, t }) = found {
         let zero = V::splat(s, 0.0);
         query.record(s, mask, V::U32::splat(s, record.prim), t, zero, zero);
     }
 }
 
+/// `own_box` is asked for only if some ray meets the cone that has no ends.
 #[inline(always)]
-fn test<V: SimdF32, F: Frame<V>>(
+fn test<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
     s: V::Simd,
-    record: &ConeRecord,
+    mantle: &Mantle<V>,
+    own_box: impl FnOnce() -> B,
     packet: &Packet<V>,
     frame: &F,
     limit: V,
 ) -> Option<Found<V>> {
-    let axis = Vec3::splat(s, record.axis);
-    let (cos, sin) = (V::splat(s, record.cos), V::splat(s, record.sin));
+    let &Mantle { base, axis, height, cos, sin, radius } = mantle;
     // From the base to the point of the ray that is nearest to it.
-    let from_base = packet.origin - Vec3::splat(s, record.base);
+    let from_base = packet.origin - base;
     let start = -from_base.dot(packet.dir) / packet.dir.dot(packet.dir);
     let from_base = from_base + packet.dir * start;
     // Place and direction: along the axis, across it, and how wide the cone is there.
     let (z, dz) = (from_base.dot(axis), packet.dir.dot(axis));
     let (p, e) = (from_base - axis * z, packet.dir - axis * dz);
-    let (width, widening) = (V::splat(s, record.radius) + sin * z, sin * dz);
+    let (width, widening) = (radius + sin * z, sin * dz);
 
     let (apart, moment) = (e * width - p * widening, p.cross(e));
     let cos2 = cos * cos;
@@ -123,12 +191,11 @@ fn test<V: SimdF32, F: Frame<V>>(
     let b = width * widening - cos2 * p.dot(e);
     let c = cos2 * p.dot(p) - width * width;
     let [t0, t1] = q_roots(s, [a, b, c], cos * depth.sqrt());
-    let height = V::splat(s, record.height);
     let t0 = counting(s, packet, start, [z, dz], height, t0);
     let t1 = counting(s, packet, start, [z, dz], height, t1);
     let t = t0.min(t1);
 
-    let (enter, exit) = robust::enter_exit(s, &record.own_box, packet, frame);
+    let (enter, exit) = robust::enter_exit(s, &own_box(), packet, frame);
     let t = t.max(enter);
     let mask = meets & packet.tmin.le(exit) & enter.le(exit) & t.le(limit);
     mask.any().then_some(Found { mask, t })

@@ -130,7 +130,7 @@ impl Form for Central {
     const DEFINITE: bool = false;
 
     fn record(surface: &Curved, prim: u32) -> Option<Record> {
-        Some(Record::central(&quadric(surface), prim))
+        Some(Record::central(&quadric(surface)?, prim))
     }
 
     #[inline(always)]
@@ -177,7 +177,7 @@ impl Form for World {
     const DEFINITE: bool = false;
 
     fn record(surface: &Curved, prim: u32) -> Option<Record> {
-        Some(Record::world(&quadric(surface), prim))
+        Some(Record::world(&quadric(surface)?, prim))
     }
 
     #[inline(always)]
@@ -216,11 +216,12 @@ impl Form for World {
     }
 }
 
-/// A surface as a quadric.
-fn quadric(surface: &Curved) -> Quadric {
+/// A surface as a quadric, if its numbers are those of one.
+fn quadric(surface: &Curved) -> Option<Quadric> {
     match *surface {
-        Curved::Sphere(sphere) => sphere.into(),
-        Curved::Quadric(quadric) => quadric,
+        Curved::Sphere(sphere) => Some(sphere.into()),
+        Curved::Quadric(quadric) => Some(quadric),
+        Curved::Cone(_) => None,
     }
 }
 

@@ -6,7 +6,8 @@
 //! roots from it. Each is one text for three [forms](form) of surface: spheres, quadrics about their
 //! centre, quadrics about the world's origin; and one text for rays in lanes against one surface
 //! ([`Record`]), one ray in all lanes against surfaces in lanes ([`RecordBlock`]), and one against
-//! one. [`catalogue`] lists every method with every choice; what renders is [`sphere`].
+//! one. [`catalogue`] lists every method with every choice; what renders is [`sphere`] and [`cone`],
+//! which has a method of its own.
 
 mod catalogue;
 pub mod cone;
@@ -19,6 +20,7 @@ mod sweep;
 mod textbook;
 
 pub use catalogue::{QuadricTest, catalogue};
+pub use cone::OwnBoxCone;
 pub use record::{Record, RecordBlock, Records};
 pub use residual::Residual;
 pub use sphere::OwnBoxSphere;

@@ -3,6 +3,7 @@
 use simd4::math::Vec3;
 use simd4::{Block16, Lanes, SimdF32};
 
+use super::cone::ConeRecord;
 use crate::geom::{Aabb, Quadric, Sphere};
 use crate::packet::{Boxes, OwnBoxes};
 
@@ -14,6 +15,11 @@ const MATRIX: usize = 4;
 const AXIS: usize = 10;
 const RANGE: usize = 13;
 const LINEAR: usize = 15;
+
+/// Of a cone: where others have M, the own box; where they have the range, the cosine and the sine of
+/// half the angle, and the radius.
+const OWN_BOX: usize = MATRIX;
+const OPENING: usize = RANGE;
 
 /// What a kernel keeps of a surface. A form reads those numbers that it needs.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +62,17 @@ impl Record {
         record
     }
 
+    /// The centre is that of the base, the size the height.
+    pub(super) fn cone(cone: &ConeRecord) -> Record {
+        let mut numbers = [0.0; NUMBERS];
+        numbers[CENTER..][..3].copy_from_slice(&cone.base);
+        numbers[SIZE] = cone.height;
+        numbers[OWN_BOX..][..6].copy_from_slice(cone.own_box.axes.as_flattened());
+        numbers[AXIS..][..3].copy_from_slice(&cone.axis);
+        numbers[OPENING..][..3].copy_from_slice(&[cone.cos, cone.sin, cone.radius]);
+        Record { numbers, prim: cone.prim }
+    }
+
     /// What no ray meets, with any kernel.
     fn nothing() -> Record {
         Record { numbers: [f32::NAN; NUMBERS], prim: 0 }
@@ -76,6 +93,9 @@ pub trait Records<V: SimdF32> {
 
     /// The own boxes of spheres, the same bits as [`Sphere::own_box`].
     fn own_boxes(&self, s: V::Simd) -> Self::Boxes;
+
+    /// The own boxes of cones.
+    fn cone_boxes(&self, s: V::Simd) -> Self::Boxes;
 
     /// Three of the numbers.
     #[inline(always)]
@@ -105,6 +125,15 @@ pub trait Records<V: SimdF32> {
             Vec3::new(xy, diagonal.y, yz),
             Vec3::new(zx, yz, diagonal.z),
         ]
+    }
+
+    /// The cosine and the sine of half a cone's angle, and its radius at the base times the cosine.
+    #[inline(always)]
+    fn opening(&self, s: V::Simd) -> [V; 3] {
+        [0, 1, 2].map(
+            #[inline(always)]
+            |i| self.get(s, OPENING + i),
+        )
     }
 
     /// What points are measured along.
@@ -143,6 +172,12 @@ impl<V: SimdF32> Records<V> for Record {
     fn own_boxes(&self, _: V::Simd) -> Aabb {
         let [x, y, z, radius, ..] = self.numbers;
         Sphere { center: glam::Vec3::new(x, y, z), radius }.own_box()
+    }
+
+    #[inline(always)]
+    fn cone_boxes(&self, _: V::Simd) -> Aabb {
+        let [x0, x1, y0, y1, z0, z1] = *self.numbers[OWN_BOX..].first_chunk().expect("six of them");
+        Aabb { axes: [[x0, x1], [y0, y1], [z0, z1]] }
     }
 }
 
@@ -218,6 +253,12 @@ impl<V: SimdF32> Records<V> for BlockLanes<'_> {
         let (Vec3 { x, y, z }, radius): (Vec3<V>, V) = (self.center(s), self.size(s));
         let (x, y, z) = (about(x, radius), about(y, radius), about(z, radius));
         OwnBoxes::padded(s, [x, y, z])
+    }
+
+    #[inline(always)]
+    fn cone_boxes(&self, s: V::Simd) -> OwnBoxes<V> {
+        let side = |k: usize| self.get(s, OWN_BOX + k);
+        OwnBoxes([[side(0), side(1)], [side(2), side(3)], [side(4), side(5)]])
     }
 }
 

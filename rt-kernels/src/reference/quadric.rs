@@ -7,12 +7,12 @@
 
 use std::cmp::Ordering;
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 use super::ROUNDOFF;
 use super::ball::Ball;
 use crate::Ray;
-use crate::geom::{Curved, Quadric};
+use crate::geom::{Cone, Curved, Quadric};
 
 /// What is so.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,30 +42,22 @@ pub struct Verdict {
 /// Judges a ray and a surface.
 pub fn judge(ray: &Ray, surface: &Curved) -> Verdict {
     let nowhere = Verdict { meeting: Meeting::Nowhere, band: 0.0 };
-    let (quadric, level) = match *surface {
-        Curved::Sphere(sphere) => {
-            (Quadric::from(sphere), Ball::new(sphere.radius) * Ball::new(sphere.radius))
-        }
-        Curved::Quadric(quadric) => (quadric, Ball::new(quadric.level)),
-    };
-    let Quadric { center, matrix, axis, range, .. } = quadric;
-    let finite = [ray.origin, ray.dir, center, axis].iter().all(|v| v.is_finite())
-        && matrix.iter().chain(&range).all(|number| number.is_finite())
-        && level.value().is_finite();
+    let finite = ray.origin.is_finite() && ray.dir.is_finite();
     if !finite || ray.dir == Vec3::ZERO || ray.tmin.is_nan() || ray.tmax.is_nan() {
         return nowhere;
     }
-    let [[x, y, z], [cx, cy, cz]] = [vector(ray.origin), vector(center)];
-    let from_center = [x - cx, y - cy, z - cz];
-    let dir = vector(ray.dir);
-    let turned = turn(matrix, dir);
-    // a t² + 2 b t + c = 0.
-    let a = dot(dir, turned);
-    let b = dot(from_center, turned);
-    let c = dot(from_center, turn(matrix, from_center)) - level;
+    let scene = match *surface {
+        Curved::Sphere(sphere) => {
+            let radius = Ball::new(sphere.radius);
+            Scene::of_quadric(ray, &sphere.into(), radius * radius)
+        }
+        Curved::Quadric(quadric) => Scene::of_quadric(ray, &quadric, Ball::new(quadric.level)),
+        Curved::Cone(cone) => Scene::of_cone(ray, &cone),
+    };
+    let Some(scene) = scene else { return nowhere };
+    let [a, b, c] = scene.equation;
     let discriminant = b * b - a * c;
 
-    let scene = Scene { ray, from_center, dir, axis: vector(axis), range };
     let (meeting, ends) = match discriminant.sign() {
         Some(Ordering::Less) => (Meeting::Nowhere, f64::INFINITY),
         Some(Ordering::Greater) => {
@@ -95,23 +87,89 @@ pub fn judge(ray: &Ray, surface: &Curved) -> Verdict {
     // the form's slope there.
     let (a, b, c) = (a.value(), b.value(), c.value());
     let (t, depth) = if a == 0.0 { (0.0, c) } else { (-b / a, discriminant.value() / a) };
-    let origin = DVec3::from_array(from_center.map(Ball::value));
+    let origin = DVec3::from_array(scene.from_center.map(Ball::value));
     let midway = origin + ray.dir.as_dvec3() * t;
-    let slope = 2.0 * (quadric.matrix().as_dmat3() * midway).length();
+    let slope = 2.0 * (scene.matrix * midway - scene.linear).length();
     let greatest = midway.abs().max(origin.abs()).max_element();
     Verdict { meeting, band: (depth / slope).abs().min(ends) / (ROUNDOFF * greatest) }
 }
 
-/// What is left to know once there are roots.
+/// A ray and a surface.
 struct Scene<'a> {
     ray: &'a Ray,
+    /// a, b and c: the line meets the surface where a t² + 2 b t + c = 0.
+    equation: [Ball; 3],
+    /// Half the slope of the form at x is M x − g.
+    matrix: DMat3,
+    linear: DVec3,
     from_center: [Ball; 3],
     dir: [Ball; 3],
+    /// What points are measured along, and from where to where the surface goes.
     axis: [Ball; 3],
-    range: [f32; 2],
+    range: [Ball; 2],
 }
 
-impl Scene<'_> {
+impl<'a> Scene<'a> {
+    /// `None` if a number is not finite.
+    fn of_quadric(ray: &'a Ray, quadric: &Quadric, level: Ball) -> Option<Scene<'a>> {
+        let &Quadric { center, matrix, axis, range, .. } = quadric;
+        let finite = center.is_finite()
+            && axis.is_finite()
+            && matrix.iter().chain(&range).all(|number| number.is_finite())
+            && level.value().is_finite();
+        let (from_center, dir) = (minus(vector(ray.origin), vector(center)), vector(ray.dir));
+        let turned = turn(matrix, dir);
+        let equation = [
+            dot(dir, turned),
+            dot(from_center, turned),
+            dot(from_center, turn(matrix, from_center)) - level,
+        ];
+        finite.then(|| Scene {
+            ray,
+            equation,
+            matrix: quadric.matrix().as_dmat3(),
+            linear: DVec3::ZERO,
+            from_center,
+            dir,
+            axis: vector(axis),
+            range: range.map(Ball::new),
+        })
+    }
+
+    /// With d from the base to the apex, and x from the base, the cone is where
+    /// |x|² − (x · d)² / |d|² = r², and r goes from one radius to the other as x · d goes from 0 to |d|².
+    fn of_cone(ray: &'a Ray, cone: &Cone) -> Option<Scene<'a>> {
+        let &Cone { base, base_radius, apex, apex_radius } = cone;
+        let finite = [base_radius, apex_radius].iter().all(|radius| radius.is_finite())
+            && base.is_finite()
+            && apex.is_finite()
+            && base != apex;
+        let axis = minus(vector(apex), vector(base));
+        let square = dot(axis, axis);
+        let (from_base, dir) = (minus(vector(ray.origin), vector(base)), vector(ray.dir));
+        let (along, speed) = (dot(from_base, axis), dot(dir, axis));
+        let [radius, other] = [base_radius, apex_radius].map(Ball::new);
+        let widening = (other - radius) / square;
+        let (there, change) = (radius + widening * along, widening * speed);
+        let equation = [
+            dot(dir, dir) - speed * speed / square - change * change,
+            dot(from_base, dir) - along * speed / square - there * change,
+            dot(from_base, from_base) - along * along / square - there * there,
+        ];
+        let d = DVec3::from_array(axis.map(Ball::value));
+        let (outer, widening) = (DMat3::from_cols(d * d.x, d * d.y, d * d.z), widening.value());
+        finite.then(|| Scene {
+            ray,
+            equation,
+            matrix: DMat3::IDENTITY - outer * (1.0 / square.value() + widening * widening),
+            linear: d * (radius.value() * widening),
+            from_center: from_base,
+            dir,
+            axis,
+            range: [Ball::new(0.0), square],
+        })
+    }
+
     /// The first of the roots that counts, and how far in space the nearest end is from any of them.
     fn first(&self, roots: &[Ball]) -> (Meeting, f64) {
         let ends = roots.iter().map(|&t| self.to_ends(t)).fold(f64::INFINITY, f64::min);
@@ -130,7 +188,7 @@ impl Scene<'_> {
     /// Whether the point at `t` is on what is left of ray and surface: `None` if that is too close
     /// to call.
     fn counts(&self, t: Ball) -> Option<bool> {
-        let [least, greatest] = self.range.map(Ball::new);
+        let [least, greatest] = self.range;
         let along = self.along(t);
         let tmax = self.ray.tmax.clamp(-f32::MAX, f32::MAX);
         let ends =
@@ -152,7 +210,7 @@ impl Scene<'_> {
     fn to_ends(&self, t: Ball) -> f64 {
         let length = |v: [Ball; 3]| DVec3::from_array(v.map(Ball::value)).length();
         let along = self.along(t).value();
-        let across = self.range.map(|end| (along - f64::from(end)).abs() / length(self.axis));
+        let across = self.range.map(|end| (along - end.value()).abs() / length(self.axis));
         let start = (t.value() - f64::from(self.ray.tmin)).abs() * length(self.dir);
         // A surface without ends has no axis: NaN, which is never the least.
         across.into_iter().fold(start, f64::min)
@@ -164,6 +222,10 @@ const PRECISE: f64 = 1.0 / (1u64 << 40) as f64;
 
 fn vector(v: Vec3) -> [Ball; 3] {
     v.to_array().map(Ball::new)
+}
+
+fn minus([ax, ay, az]: [Ball; 3], [bx, by, bz]: [Ball; 3]) -> [Ball; 3] {
+    [ax - bx, ay - by, az - bz]
 }
 
 fn dot([ax, ay, az]: [Ball; 3], [bx, by, bz]: [Ball; 3]) -> Ball {
@@ -218,6 +280,30 @@ mod tests {
         assert_eq!(at(ray([5.0, 0.0, -2.0], [-1.0, 0.0, 0.0]), &cone), Meeting::Nowhere);
         // Along the side: one root only.
         assert_eq!(at(ray([1.0, 0.0, 4.0], [-1.0, 0.0, -2.0]), &cone), Meeting::At(1.5));
+    }
+
+    #[test]
+    fn truncated_cones_are_cones() {
+        let cone = Curved::Cone(Cone {
+            base: Vec3::new(0.0, 0.0, 2.0),
+            base_radius: 1.0,
+            apex: Vec3::new(0.0, 0.0, 4.0),
+            apex_radius: 2.0,
+        });
+        let at = |origin, dir| judge(&ray(origin, dir), &cone);
+        assert_eq!(at([5.0, 0.0, 3.0], [-1.0, 0.0, 0.0]).meeting, Meeting::At(3.5));
+        assert_eq!(at([1.0, 0.0, 3.0], [-1.0, 0.0, 0.0]).meeting, Meeting::At(2.5));
+        assert_eq!(at([5.0, 0.0, 1.5], [-1.0, 0.0, 0.0]).meeting, Meeting::Nowhere);
+        assert_eq!(at([5.0, 0.0, 4.5], [-1.0, 0.0, 0.0]).meeting, Meeting::Nowhere);
+        // In at the wide end, to the mantle from inside.
+        assert_eq!(at([0.0, 0.0, 6.0], [0.5, 0.0, -1.0]).meeting, Meeting::At(3.0));
+        // Along the side: one root only.
+        assert_eq!(at([0.5, 0.0, 6.0], [-1.0, 0.0, -2.0]).meeting, Meeting::At(1.75));
+        // Past the mantle by 2^-10 of its width at right angles, where the greatest coordinate is 5.
+        let past = at([5.0, 1.5 + 1.5 / 1024.0, 3.0], [-1.0, 0.0, 0.0]);
+        assert_eq!(past.meeting, Meeting::Nowhere);
+        let off = past.band * ROUNDOFF * 5.0 * 1024.0;
+        assert!((1.0..2.0).contains(&off), "{off}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The triangle tests that render, to choose from at run time.
 
 use super::knobs::{Division, Plain};
-use super::{MollerTrumbore, Record, TriangleKernel, Wald, Watertight};
+use super::{MollerTrumbore, Plucker, Record, TriangleKernel, Wald, Watertight};
 use crate::geom::Triangle;
 
 /// A triangle test that an accelerator is built for.
@@ -19,6 +19,8 @@ pub enum Method {
     MollerTrumbore,
     /// [`Wald`]: leaks at edges, and more so far from the origin.
     Wald,
+    /// [`Plucker`]: leaks at vertices.
+    Plucker,
 }
 
 /// Evaluates an expression in which `$K` is the kernel of a method.
@@ -37,6 +39,10 @@ macro_rules! with_kernel {
                 type $K = $crate::tri::method::WaldMethod;
                 $body
             }
+            $crate::tri::Method::Plucker => {
+                type $K = $crate::tri::method::PluckerMethod;
+                $body
+            }
         }
     };
 }
@@ -44,15 +50,20 @@ pub(crate) use with_kernel;
 
 pub(crate) type MollerTrumboreMethod = MollerTrumbore<Division, Plain, true, true>;
 pub(crate) type WaldMethod = Wald<Division, Plain>;
+pub(crate) type PluckerMethod = Plucker<Division, Plain>;
 
 const _: () = assert!(
-    <Watertight as TriangleKernel>::EXACT && MollerTrumboreMethod::EXACT && WaldMethod::EXACT,
+    <Watertight as TriangleKernel>::EXACT
+        && MollerTrumboreMethod::EXACT
+        && WaldMethod::EXACT
+        && PluckerMethod::EXACT,
     "one answer on every level"
 );
 
 impl Method {
     /// All of them, the default first.
-    pub const ALL: [Method; 3] = [Method::Watertight, Method::MollerTrumbore, Method::Wald];
+    pub const ALL: [Method; 4] =
+        [Method::Watertight, Method::MollerTrumbore, Method::Wald, Method::Plucker];
 
     /// What it is called, on the command line too.
     pub fn name(self) -> &'static str {

@@ -1,7 +1,7 @@
 //! Families of rays and curved surfaces for which the roots are hard to have.
 
 use glam::{DVec3, Vec3};
-use rt_kernels::geom::{Curved, Quadric, Sphere};
+use rt_kernels::geom::{Cone, Curved, Quadric, Sphere};
 use rt_kernels::{Ray, Rays};
 
 use crate::place::Place;
@@ -25,6 +25,8 @@ pub enum Surface {
     Sphere,
     /// Others, for the tests that take any.
     Quadric,
+    /// Truncated cones and cylinders as scenes state them, for the test that takes them so.
+    Cone,
 }
 
 /// A generator of rays and curved surfaces.
@@ -38,7 +40,7 @@ pub struct QuadricFamily {
 }
 
 impl QuadricFamily {
-    pub(super) const ALL: [QuadricFamily; 13] = [
+    pub(super) const ALL: [QuadricFamily; 17] = [
         QuadricFamily {
             facts: Facts {
                 name: "random",
@@ -289,6 +291,74 @@ impl QuadricFamily {
                 )
             },
         },
+        QuadricFamily {
+            facts: Facts {
+                name: "truncated cone",
+                about: "truncated cones and cylinders seen from 2 to 16 times their size away, by rays that hit them and rays that do not",
+                kind: Kind::Natural,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Cone,
+
+            surface: truncated_cone,
+            ray: |random, surface| {
+                let (along, off) = (random.unit() as f32, random.magnitude(-2, 0));
+                let away = 2.0 + 14.0 * random.unit();
+                at_mantle(random, surface, along, off, away)
+            },
+        },
+        QuadricFamily {
+            facts: Facts {
+                name: "distant cone",
+                about: "the same from 3 to 100,000 times their size",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Cone,
+
+            surface: truncated_cone,
+            ray: |random, surface| {
+                let (along, off) = (random.unit() as f32, random.magnitude(-2, 0));
+                let away = distant(random);
+                at_mantle(random, surface, along, off, away)
+            },
+        },
+        QuadricFamily {
+            facts: Facts {
+                name: "side of a cone",
+                about: "rays that touch the mantle, or pass it at 2^-24 to 1/4 of its size",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Cone,
+
+            surface: truncated_cone,
+            ray: |random, surface| {
+                let (along, off) = (random.unit() as f32, random.magnitude(-24, -2));
+                let away = f64::from(random.magnitude(0, 5).abs());
+                at_mantle(random, surface, along, off, away)
+            },
+        },
+        QuadricFamily {
+            facts: Facts {
+                name: "rim of a cone",
+                about: "the same at its ends, tips too",
+                kind: Kind::Single,
+                fair: false,
+                setting: Setting::UNIT,
+            },
+            shape: Surface::Cone,
+
+            surface: truncated_cone,
+            ray: |random, surface| {
+                let (along, off) = (random.pick(&[0.0, 1.0]), random.magnitude(-24, -2));
+                let away = f64::from(random.magnitude(0, 5).abs());
+                at_mantle(random, surface, along, off, away)
+            },
+        },
     ];
 
     /// Batch number `i`.
@@ -341,6 +411,16 @@ fn cone(random: &mut Random, place: &Place) -> Curved {
     Curved::Quadric(Quadric::cone(place.point(centered(random)), axis, 0.5, height))
 }
 
+/// A tip at the apex, or a cylinder, or any.
+fn truncated_cone(random: &mut Random, place: &Place) -> Curved {
+    let [length, base_radius, other] =
+        [(); 3].map(|()| random.magnitude(-3, 0).abs() * scale(place));
+    let base = place.point(centered(random));
+    let apex = base + axis(random) * length;
+    let apex_radius = random.pick(&[0.0, base_radius, other]);
+    Curved::Cone(Cone { base, base_radius, apex, apex_radius })
+}
+
 /// Any direction, or that of an axis.
 fn axis(random: &mut Random) -> Vec3 {
     let any = random.direction();
@@ -351,6 +431,7 @@ fn quadric(surface: &Curved) -> Quadric {
     match *surface {
         Curved::Sphere(sphere) => sphere.into(),
         Curved::Quadric(quadric) => quadric,
+        Curved::Cone(_) => unreachable!("its families have rays of their own"),
     }
 }
 
@@ -368,6 +449,21 @@ fn at_sphere(random: &mut Random, surface: &Curved, reach: f64, off: f64) -> Ray
     let origin = quadric.center + from * (radius * reach as f32);
     let target = quadric.center + across * (radius * off as f32);
     at_any_pace(origin, target, random)
+}
+
+/// A ray to a point of the mantle, that far `along` from the base to the apex, or `off` it by as many
+/// sizes, from as many sizes `away`: where it comes from is any side.
+fn at_mantle(random: &mut Random, surface: &Curved, along: f32, off: f32, away: f64) -> Ray {
+    let &Curved::Cone(cone) = surface else { unreachable!("a family of cones has cones") };
+    let (axis, radii) = (cone.apex - cone.base, [cone.base_radius, cone.apex_radius]);
+    let size = axis.length().max(radii[0]).max(radii[1]);
+    let side = random.direction().cross(axis).normalize();
+    let radius = radii[0] + (radii[1] - radii[0]) * along;
+    let target = cone.base + axis * along + side * radius + random.direction() * (size * off);
+    let from = random.direction();
+    // Half of them graze: they come at right angles to what points outwards.
+    let from = random.pick(&[from, from.cross(side).normalize()]);
+    at_any_pace(target + from * (size * away as f32), target, random)
 }
 
 /// From one point through another.

@@ -82,8 +82,8 @@ impl Over {
 /// so that it pays where few boxes are met. Wald's saves up to a quarter of the time of rays that
 /// see little else, and a hundredth among 10,000 triangles; but its own boxes are 24 bytes more a
 /// triangle, which above that costs more than the test saves. Möller and Trumbore's saves a tenth
-/// at best, and nothing at some levels.
-pub const ERRORS: [Errors; 3] = [
+/// at best, and nothing at some levels. Plücker's saves nothing anywhere.
+pub const ERRORS: [Errors; 4] = [
     Errors {
         method: Method::Wald,
         reach: 4.0,
@@ -105,6 +105,17 @@ pub const ERRORS: [Errors; 3] = [
         slim: true,
         most_triangles: usize::MAX,
         most_boxes: 6.0,
+    },
+    Errors {
+        method: Method::Plucker,
+        reach: 8.0,
+        coordinate: 0.0,
+        remainder: false,
+        end_on: true,
+        depth: 10.0,
+        slim: true,
+        most_triangles: 0,
+        most_boxes: 0.0,
     },
     Errors {
         method: Method::Watertight,

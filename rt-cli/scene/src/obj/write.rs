@@ -4,10 +4,10 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 use std::iter;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::diag::{Error, plural};
-use crate::model::{Material, Scene};
+use crate::model::{ColorMap, Material, Scene};
 
 /// Writes a scene's triangles as OBJ. Read back, every coordinate has the same bits. `library` is
 /// the name of the file that [`write_library`] writes; without it no materials are stated.
@@ -27,10 +27,18 @@ pub fn write(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> Resu
     write_mesh(scene, library, out).map_err(Error::Write)
 }
 
-/// Writes a scene's materials as MTL. What reflects does so as much as its highlights: MTL has one
+/// Writes a scene's materials as MTL. `pictures` are the names of the files in which who calls puts
+/// the scene's textures, in their order. What reflects does so as much as its highlights: MTL has one
 /// colour for both. What goes through is grey.
-pub fn write_library(scene: &Scene, out: &mut impl Write) -> Result<(), Error> {
-    write_materials(&scene.materials, out).map_err(Error::Write)
+///
+/// # Panics
+/// If a texture of a material has no name.
+pub fn write_library(
+    scene: &Scene,
+    pictures: &[String],
+    out: &mut impl Write,
+) -> Result<(), Error> {
+    write_materials(&scene.materials, pictures, out).map_err(Error::Write)
 }
 
 fn write_mesh(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> io::Result<()> {
@@ -44,6 +52,9 @@ fn write_mesh(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> io:
     for Vec3 { x, y, z } in &mesh.normals {
         writeln!(out, "vn {x} {y} {z}")?;
     }
+    for Vec2 { x, y } in &mesh.uvs {
+        writeln!(out, "vt {x} {y}")?;
+    }
     let names = unique_names(&scene.materials);
     let mut material = None;
     for triangle in &mesh.triangles {
@@ -53,9 +64,13 @@ fn write_mesh(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> io:
         }
         write!(out, "f")?;
         for corner in 0..3 {
-            write!(out, " {}", u64::from(triangle.position[corner]) + 1)?;
-            if let Some(normal) = triangle.normal {
-                write!(out, "//{}", u64::from(normal[corner]) + 1)?;
+            let number = |indices: [u32; 3]| u64::from(indices[corner]) + 1;
+            write!(out, " {}", number(triangle.position))?;
+            match (triangle.uv.map(number), triangle.normal.map(number)) {
+                (None, None) => {}
+                (Some(uv), None) => write!(out, "/{uv}")?,
+                (None, Some(normal)) => write!(out, "//{normal}")?,
+                (Some(uv), Some(normal)) => write!(out, "/{uv}/{normal}")?,
             }
         }
         writeln!(out)?;
@@ -63,7 +78,11 @@ fn write_mesh(scene: &Scene, library: Option<&str>, out: &mut impl Write) -> io:
     Ok(())
 }
 
-fn write_materials(materials: &[Material], out: &mut impl Write) -> io::Result<()> {
+fn write_materials(
+    materials: &[Material],
+    pictures: &[String],
+    out: &mut impl Write,
+) -> io::Result<()> {
     for (material, name) in materials.iter().zip(unique_names(materials)) {
         let reflects = material.mirror != Vec3::ZERO;
         writeln!(out, "newmtl {name}")?;
@@ -75,6 +94,15 @@ fn write_materials(materials: &[Material], out: &mut impl Write) -> io::Result<(
             ("Ke", material.emission),
         ] {
             writeln!(out, "{keyword} {x} {y} {z}")?;
+        }
+        if let Some(ColorMap { texture, scale, offset }) = material.diffuse_map {
+            write!(out, "map_Kd")?;
+            for (option, value, usual) in [("-s", scale, Vec2::ONE), ("-o", offset, Vec2::ZERO)] {
+                if value != usual {
+                    write!(out, " {option} {} {}", value.x, value.y)?;
+                }
+            }
+            writeln!(out, " {}", pictures[texture as usize])?;
         }
         if material.transmission != Vec3::ZERO {
             writeln!(out, "d {opacity}")?;

@@ -241,7 +241,7 @@ fn materials_written_and_read_back() {
     let scene = with(text, &[("m.mtl", library.as_bytes())]);
     let (mut obj, mut mtl) = (Vec::new(), Vec::new());
     rt_scene::obj::write(&scene, Some("w.mtl"), &mut obj).unwrap();
-    rt_scene::obj::write_library(&scene, &mut mtl).unwrap();
+    rt_scene::obj::write_library(&scene, &[], &mut mtl).unwrap();
     let again = with(obj, &[("w.mtl", &mtl)]);
     assert_eq!(again.materials, scene.materials);
     assert_eq!(format!("{:?}", again.mesh), format!("{:?}", scene.mesh));
@@ -262,7 +262,7 @@ fn written_materials_have_names_of_their_own() {
         (0..4).map(|material| rt_scene::Triangle { material, ..triangle }).collect();
     let (mut obj, mut mtl) = (Vec::new(), Vec::new());
     rt_scene::obj::write(&scene, Some("w.mtl"), &mut obj).unwrap();
-    rt_scene::obj::write_library(&scene, &mut mtl).unwrap();
+    rt_scene::obj::write_library(&scene, &[], &mut mtl).unwrap();
     let again = with(obj, &[("w.mtl", &mtl)]);
     let greys: Vec<f32> = again.materials.iter().map(|m| m.diffuse.x).collect();
     assert_eq!(greys, colors);

@@ -127,6 +127,36 @@ fn scales_and_offsets() {
 }
 
 #[test]
+fn written_textures_come_back() {
+    let library = "newmtl m\nKd 0.5 1 1\nmap_Kd -s 2 3 -o .5 .25 a.png\nnewmtl n\nmap_Kd b.jpg\n";
+    let face =
+        "usemtl n\nf 3/2 2/1 1/3\nf 1 2 3\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\nf 1//1 2//1 3//1\n";
+    let text = format!("mtllib m.mtl\nusemtl m\n{FACE}{face}");
+    let read = |text: &[u8], files: &[(&str, &[u8])]| {
+        let mut load = |name: &str| {
+            let file = files.iter().find(|(file, _)| *file == name);
+            file.map(|(_, bytes)| bytes.to_vec()).ok_or(io::Error::from(io::ErrorKind::NotFound))
+        };
+        rt_scene::obj::parse(text, "t.obj", &mut load).expect("a good scene")
+    };
+    let files = [("m.mtl", library.as_bytes()), ("a.png", &two()), ("b.jpg", &jpeg())];
+    let scene = read(text.as_bytes(), &files);
+    assert_eq!((scene.textures.len(), scene.mesh.triangles.len()), (2, 5));
+
+    let names = ["one.png", "the other.png"].map(str::to_owned);
+    let (mut obj, mut mtl) = (Vec::new(), Vec::new());
+    rt_scene::obj::write(&scene, Some("w.mtl"), &mut obj).unwrap();
+    rt_scene::obj::write_library(&scene, &names, &mut mtl).unwrap();
+    let pictures = [0, 1].map(|i| scene.textures[i].to_png());
+    let again =
+        read(&obj, &[("w.mtl", &mtl), ("one.png", &pictures[0]), ("the other.png", &pictures[1])]);
+    assert_eq!(again.facts.warnings, Vec::<String>::new());
+    assert_eq!(again.textures, scene.textures);
+    assert_eq!(again.materials, scene.materials);
+    assert_eq!(format!("{:?}", again.mesh), format!("{:?}", scene.mesh));
+}
+
+#[test]
 fn pictures_of_all_kinds() {
     let rgba = png(1, 1, png::ColorType::Rgba, &[1, 2, 3, 0]);
     let grey = png(1, 1, png::ColorType::Grayscale, &[7]);
