@@ -92,6 +92,7 @@ a.obj
   crowding    a line meets the boxes of 1.00 triangles on average
   kernel      wald: band 1.26e-6, depth 9.86e-7: at most 7.85e-4 px; cheaper over skip arrays
   kernel      moller-trumbore: band 6.00e-7, depth 1.90e-6: at most 1.18e-3 px; cheaper over skip arrays
+  kernel      plucker: band 8.48e-7, depth 1.90e-6: at most 1.18e-3 px; no cheaper here
   kernel      watertight: band 8.55e-7, depth 1.52e-6: at most 9.47e-4 px; keeps the promise: no leaks
 ";
     assert_eq!(text, expected);

@@ -83,7 +83,7 @@ impl ConeRecord {
 pub struct OwnBoxCone;
 
 impl QuadricKernel for OwnBoxCone {
-    const NAME: &'static str = "Lagrange";
+    const NAME: &'static str = "residual";
     const FRAMED: bool = true;
 
     fn variant() -> String {

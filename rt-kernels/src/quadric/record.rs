@@ -130,10 +130,7 @@ pub trait Records<V: SimdF32> {
     /// The cosine and the sine of half a cone's angle, and its radius at the base times the cosine.
     #[inline(always)]
     fn opening(&self, s: V::Simd) -> [V; 3] {
-        [0, 1, 2].map(
-            #[inline(always)]
-            |i| self.get(s, OPENING + i),
-        )
+        [self.get(s, OPENING), self.get(s, OPENING + 1), self.get(s, OPENING + 2)]
     }
 
     /// What points are measured along.
@@ -257,8 +254,8 @@ impl<V: SimdF32> Records<V> for BlockLanes<'_> {
 
     #[inline(always)]
     fn cone_boxes(&self, s: V::Simd) -> OwnBoxes<V> {
-        let side = |k: usize| self.get(s, OWN_BOX + k);
-        OwnBoxes([[side(0), side(1)], [side(2), side(3)], [side(4), side(5)]])
+        let (low, high): (Vec3<V>, Vec3<V>) = (self.vec3(s, OWN_BOX), self.vec3(s, OWN_BOX + 3));
+        OwnBoxes([[low.x, low.y], [low.z, high.x], [high.y, high.z]])
     }
 }
 
