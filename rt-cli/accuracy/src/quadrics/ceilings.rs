@@ -22,5 +22,5 @@ pub(super) const CEILINGS: [Ceiling; 17] = [
     ceiling("residual", "quadric, fused", [0.0, 11850.0, 18320.0, 2.8, 265.5]),
     ceiling("residual", "world quadric", [0.0, 138870.0, 90470.0, 5.3, 21740.7]),
     ceiling("residual", "sphere, own box", [0.0, 19280.0, 18470.0, 3.0, 1.6]),
-    ceiling("residual", "cone, own box", [0.0, 0.0, 0.0, 0.0, 0.0]),
+    ceiling("residual", "cone, own box", [0.0, 10660.0, 12990.0, 0.0, 119.8]),
 ];

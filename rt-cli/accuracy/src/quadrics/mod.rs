@@ -85,7 +85,7 @@ impl Family for QuadricFamily {
 }
 
 /// What rays at cones are misjudged within, at most.
-const CONE_BAND: f64 = 64.0;
+const CONE_BAND: f64 = 128.0;
 
 fn add(tally: &mut Tally, verdict: &Verdict, hit: Option<f32>) {
     tally.rays += 1;
