@@ -31,14 +31,12 @@ pub(crate) struct TestProgram {
     pub(crate) file: PathBuf,
 }
 
-const LTO: &str = "CARGO_PROFILE_DEV_LTO";
-
 /// Spares LLVM, where it inlines, to note which references were known to be apart. Kernels are all
-/// inlined, by value: the notes are a fifth of the work, and nothing comes of them.
+/// inlined, by value: the notes are a quarter of the work, and nothing comes of them.
 const WITHOUT_NOTES: &str = "-Cllvm-args=-enable-noalias-to-md-conversion=false";
 
 /// How cargo is told to build what nobody edits and builds again in a loop, or debugs: in one go,
-/// without benches and the places of lines, and without what takes longer than tests gain by it.
+/// without benches, the places of lines and notes for LLVM.
 fn settings_in_one_go(sh: &Shell, rustflags: &str) -> Vec<(&'static str, String)> {
     let probe = cmd!(sh, "rustc {WITHOUT_NOTES} --crate-type rlib --emit metadata=- -");
     // LLVM's flags come and go.
@@ -48,7 +46,6 @@ fn settings_in_one_go(sh: &Shell, rustflags: &str) -> Vec<(&'static str, String)
     vec![
         ("CARGO_INCREMENTAL", "0".to_owned()),
         ("CARGO_PROFILE_DEV_DEBUG", "0".to_owned()),
-        (LTO, "off".to_owned()),
         ("RUSTFLAGS", flags.join(" ").trim().to_owned()),
     ]
 }
@@ -65,10 +62,10 @@ impl Programs {
             true => settings_in_one_go(sh, target.build.rustflags),
             false => vec![],
         };
-        if target.build == Build::default() || !matches!(target.run, Run::Directly) {
-            // Optimised across the units of a crate: for emulators' sake, which run the host's own
-            // programs too.
-            settings.retain(|(variable, _)| *variable != LTO);
+        if target.build != Build::default() && matches!(target.run, Run::Directly) {
+            // To optimise across the units of a crate takes longer than tests gain by it, but for
+            // emulators, which run the host's own programs too.
+            settings.push(("CARGO_PROFILE_DEV_LTO", "off".to_owned()));
         }
         command = command.envs(settings.iter().cloned());
         if target.of_workspace() && target.build.triple.is_some() {

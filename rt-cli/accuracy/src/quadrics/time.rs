@@ -18,8 +18,8 @@ const RAYS: usize = 64;
 
 /// Times every subject on the calling thread, once a round for each in turn: 64 rays with like
 /// directions and 64 spheres, or cones for what takes no spheres, of which a ray meets a few.
-/// Nanoseconds for one test of one ray against one of them, stated as the kernel states it; the rays' share of the setup of packets
-/// included.
+/// Nanoseconds for one test of one ray against one of them, stated as the kernel states it; the
+/// rays' share of the setup of packets included.
 pub(super) fn time(subjects: &[Subject<Kernel>], rounds: usize) -> Vec<Time> {
     let (spheres, cones, rays) = workload();
     let kept = |subject: &Subject<Kernel>| {

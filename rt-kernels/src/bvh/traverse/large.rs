@@ -52,7 +52,7 @@ pub(crate) struct Batch<'a> {
 }
 
 /// What a traversal needs besides the rays. Made before a level is chosen: where nothing is to be
-/// dropped, no operation of a level needs a way out, and the compiler has half the work.
+/// dropped, no operation of a level needs a way out, and the compiler has less to do.
 pub(crate) struct Scratch {
     chunk: Box<Chunk>,
     buckets: Buckets,
