@@ -2,7 +2,7 @@
 //! "FPU emulation" (Geimer and Müller 2003, Section 2).
 
 use crate::simd::sealed::Sealed;
-use crate::types::array::{Lane, each_lane};
+use crate::types::array::{Lane, each_lane, lanes};
 use crate::types::reduce::Fold;
 use crate::types::{Join, conversions, operators, unary_operator};
 use crate::{
@@ -110,23 +110,14 @@ pub use names::*;
 impl<T, const N: usize> Sealed for Vector<T, N> {}
 impl<const N: usize> Sealed for Mask<N> {}
 
-/// Every lane from its number, without a closure.
-macro_rules! lanes {
-    (|$i:ident| $lane:expr) => {{
-        let mut r = const { [Lane::NOTHING; N] };
-        each_lane!(N, |$i| r[$i] = $lane);
-        r
-    }};
-}
-
 #[inline(always)]
 fn map<A: Copy, R: Lane, const N: usize>(a: [A; N], f: impl Fn(A) -> R) -> [R; N] {
-    lanes!(|i| f(a[i]))
+    lanes!(N, |i| f(a[i]))
 }
 
 #[inline(always)]
 fn map2<A: Copy, R: Lane, const N: usize>(a: [A; N], b: [A; N], f: impl Fn(A, A) -> R) -> [R; N] {
-    lanes!(|i| f(a[i], b[i]))
+    lanes!(N, |i| f(a[i], b[i]))
 }
 
 /// Folds the lanes from `n` on into those before, if there are so many.
@@ -145,7 +136,7 @@ macro_rules! mapped {
     ($($method:ident($($arg:ident),*) = $f:expr;)*) => {$(
         #[inline(always)]
         fn $method(self, $($arg: Self),*) -> Self {
-            Vector(lanes!(|i| $f(self.0[i], $($arg.0[i]),*)))
+            Vector(lanes!(N, |i| $f(self.0[i], $($arg.0[i]),*)))
         }
     )*};
 }
@@ -168,7 +159,7 @@ macro_rules! numbers {
             #[inline(always)]
             fn splat(_: Scalar, x: $elem) -> Self {
                 // `[x; N]` would be a loop.
-                Vector(lanes!(|_i| x))
+                Vector(lanes!(N, |_i| x))
             }
             #[inline(always)]
             fn from_array(_: Scalar, a: [$elem; N]) -> Self {
@@ -198,7 +189,7 @@ macro_rules! numbers {
             }
             #[inline(always)]
             fn select(m: Mask<N>, a: Self, b: Self) -> Self {
-                Vector(lanes!(|i| spec::select(m.0[i], a.0[i], b.0[i])))
+                Vector(lanes!(N, |i| spec::select(m.0[i], a.0[i], b.0[i])))
             }
             #[inline(always)]
             fn reduce<F: Fold>(self) -> $elem {
@@ -355,7 +346,7 @@ impl<const N: usize> SimdMask for Mask<N> {
     }
     #[inline(always)]
     fn splat(_: Scalar, b: bool) -> Self {
-        Mask(lanes!(|_i| b))
+        Mask(lanes!(N, |_i| b))
     }
     #[inline(always)]
     fn from_array(_: Scalar, a: [bool; N]) -> Self {

@@ -20,7 +20,18 @@ macro_rules! each_lane {
         }
     )*}};
 }
-pub(crate) use each_lane;
+
+/// An array of lanes, each from its number, without a closure.
+macro_rules! lanes {
+    ($lanes:expr, |$i:ident| $lane:expr) => {{
+        // A constant: to repeat a value takes a loop, and every operation would have one.
+        let mut lanes = const { [$crate::types::array::Lane::NOTHING; $lanes] };
+        each_lane!($lanes, |$i| lanes[$i] = $lane);
+        lanes
+    }};
+}
+
+pub(crate) use {each_lane, lanes};
 
 /// A number that fits in a lane of 32 bits.
 pub trait Element: Lane + Default + PartialEq + PartialOrd + Debug + Sealed {
@@ -82,9 +93,6 @@ pub trait LaneArray<T>:
 impl<T: Lane, const N: usize> LaneArray<T> for [T; N] {
     #[inline(always)]
     fn from_fn(lane: impl Fn(usize) -> T) -> Self {
-        // A constant: to repeat a value takes a loop, and every operation here would have one.
-        let mut a = const { [T::NOTHING; N] };
-        each_lane!(N, |i| a[i] = lane(i));
-        a
+        lanes!(N, |i| lane(i))
     }
 }
