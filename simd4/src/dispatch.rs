@@ -6,17 +6,19 @@
 /// `dispatch!(level, s => kernel(s, …))` binds `s` to the level's token and evaluates to the value
 /// of the expression. Dispatch once, outside the loop: hand the kernel a batch. The expression
 /// is the body of a closure: `return` and `?` leave it alone and not the function around it.
+///
+/// For a level that [the build leaves out](crate#the-levels), the one that the build guarantees runs.
 #[macro_export]
 macro_rules! dispatch {
     ($level:expr, $s:ident => $body:expr) => {
-        match $level {
+        match $level.in_this_build() {
             $crate::Level::Scalar($s) => $crate::__vectorize!($s, $body),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            $crate::Level::Sse2($s) => $crate::__vectorize!($s, $body),
+            $crate::Level::Sse2($s) => $crate::__vectorize!($s, $body, unless $crate::Sse2::LEFT_OUT),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            $crate::Level::Sse41($s) => $crate::__vectorize!($s, $body),
+            $crate::Level::Sse41($s) => $crate::__vectorize!($s, $body, unless $crate::Sse41::LEFT_OUT),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            $crate::Level::Avx2($s) => $crate::__vectorize!($s, $body),
+            $crate::Level::Avx2($s) => $crate::__vectorize!($s, $body, unless $crate::Avx2::LEFT_OUT),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             $crate::Level::Avx512($s) => $crate::__vectorize!($s, $body),
             #[cfg(target_arch = "aarch64")]
@@ -35,6 +37,14 @@ macro_rules! dispatch {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __vectorize {
+    // A constant condition: what it excludes is never compiled.
+    ($s:ident, $body:expr, unless $left_out:expr) => {
+        if $left_out {
+            unreachable!("a level that the build leaves out")
+        } else {
+            $crate::__vectorize!($s, $body)
+        }
+    };
     ($s:ident, $body:expr) => {
         $crate::Simd::vectorize(
             $s,

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use crate::Simd;
-use crate::arch::tokens::*;
+use crate::arch::{native::Best, tokens::*};
+use crate::{Guaranteed, Simd};
 
 /// A level that this CPU has. The token inside is the proof: no other code can make one.
 #[derive(Clone, Copy, Debug)]
@@ -57,18 +57,38 @@ impl Level {
         .into_iter()
     }
 
-    /// The levels that this CPU has, weakest first. Never empty: the first is always `scalar`.
+    /// The levels that this CPU has and the build does not leave out, weakest first. Never empty: the
+    /// first is always `scalar`.
     ///
     /// Without the feature `std` these are the ones that the build guarantees.
     pub fn available() -> impl DoubleEndedIterator<Item = Level> {
-        Self::detect().flatten()
+        Self::detect().flatten().filter(|level| !level.is_left_out())
+    }
+
+    /// Whether the build leaves it out: the build guarantees a better one.
+    fn is_left_out(self) -> bool {
+        match self {
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Sse2(_) => Sse2::LEFT_OUT,
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Sse41(_) => Sse41::LEFT_OUT,
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx2(_) => Avx2::LEFT_OUT,
+            _ => false,
+        }
+    }
+
+    /// Itself, or the level that the build guarantees where it leaves this one out.
+    #[doc(hidden)]
+    pub fn in_this_build(self) -> Level {
+        if self.is_left_out() { Best::TOKEN.level() } else { self }
     }
 
     /// The best level of this CPU, or the one that the environment variable `SIMD4_LEVEL` names
     /// if it is set and not empty.
     ///
     /// # Errors
-    /// If `SIMD4_LEVEL` names no level, or one that this CPU lacks.
+    /// As [`named`](Self::named), if `SIMD4_LEVEL` is set.
     pub fn best() -> Result<Level, LevelError> {
         #[cfg(feature = "std")]
         if let Some(name) = std::env::var_os("SIMD4_LEVEL").filter(|name| !name.is_empty()) {
@@ -80,12 +100,17 @@ impl Level {
     /// The level of that [name](Level::name).
     ///
     /// # Errors
-    /// If there is no such level, or this CPU lacks it. The error lists those it has.
+    /// If there is no such level, this CPU lacks it, or the build leaves it out. The error lists those
+    /// there are.
     pub fn named(name: &str) -> Result<Level, LevelError> {
-        let known = Self::NAMES.iter().find(|known| **known == name);
-        Self::available()
-            .find(|level| level.name() == name)
-            .ok_or(LevelError { lacking: known.copied() })
+        match Self::detect().flatten().find(|level| level.name() == name) {
+            Some(level) if level.is_left_out() => Err(LevelError::LeftOut(level.name())),
+            Some(level) => Ok(level),
+            None => match Self::NAMES.into_iter().find(|known| *known == name) {
+                Some(known) => Err(LevelError::Lacking(known)),
+                None => Err(LevelError::Unknown),
+            },
+        }
     }
 
     /// `scalar`, `sse2`, `sse4.1`, `avx2`, `avx512`, `neon` or `simd128`.
@@ -131,18 +156,27 @@ impl fmt::Display for Level {
     }
 }
 
-/// A level was asked for that does not exist or that this CPU lacks.
+/// A level was asked for that is not [there](Level::available).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LevelError {
-    /// The level's name, where there is one of that name.
-    lacking: Option<&'static str>,
+#[non_exhaustive]
+pub enum LevelError {
+    /// There is none of that name.
+    Unknown,
+    /// The CPU lacks the level of that name.
+    Lacking(&'static str),
+    /// The build [leaves out](crate#the-levels) the level of that name.
+    LeftOut(&'static str),
 }
 
 impl fmt::Display for LevelError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.lacking {
-            Some(name) => write!(f, "this CPU lacks the level {name}; it has")?,
-            None => write!(f, "there is no such level; this CPU has")?,
+        match self {
+            LevelError::Unknown => write!(f, "there is no such level; this CPU has")?,
+            LevelError::Lacking(name) => write!(f, "this CPU lacks the level {name}; it has")?,
+            LevelError::LeftOut(name) => {
+                let better = Best::TOKEN.level();
+                write!(f, "this build, for CPUs with {better}, leaves out {name}; there are")?;
+            }
         }
         for (i, level) in Level::available().enumerate() {
             write!(f, "{} {level}", if i == 0 { "" } else { "," })?;

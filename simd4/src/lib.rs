@@ -103,6 +103,10 @@
 //!     --emit asm -Ccodegen-units=1 -Cdebuginfo=0
 //! ```
 //!
+//! A build leaves out what is weaker than the level that it guarantees, but for `scalar`: with
+//! `-C target-cpu=x86-64-v3` there are `scalar`, `avx2` and `avx512`. Code is compiled for no other,
+//! so such builds are smaller and take less time.
+//!
 //! `Level::best` takes the last that the CPU has, or the one that the environment variable
 //! `SIMD4_LEVEL` names. Without the default feature `std` there is neither detection nor
 //! environment: levels are then those that the build guarantees.

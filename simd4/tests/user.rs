@@ -47,6 +47,43 @@ fn a_kernel_is_written_dispatched_and_the_same_on_every_level() {
     });
 }
 
+/// The best level that the build guarantees.
+fn guaranteed() -> Level {
+    fn of<V: SimdF32<Simd: Guaranteed>>() -> Level {
+        V::Simd::TOKEN.level()
+    }
+    of::<simd4::f32x4>()
+}
+
+#[test]
+fn a_build_has_the_definition_and_nothing_else_below_what_it_guarantees() {
+    let scalar = simd4::Scalar::new().level();
+    let mut levels = Level::available();
+    assert_eq!(levels.next(), Some(scalar));
+    if guaranteed() != scalar {
+        assert_eq!(levels.next(), Some(guaranteed()));
+    }
+}
+
+/// A token is good for its own level, whatever the build leaves out.
+#[test]
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+fn what_is_left_out_runs_as_what_the_build_guarantees() {
+    let Some(token) = simd4::Sse2::detect() else { return };
+    assert_eq!(rows(token, &[Block8([1.0; 8])], &Block8([2.0; 8])), [16.0]);
+    let ran = dispatch!(token.level(), s => s.level());
+    if Level::available().any(|level| level == token.level()) {
+        assert_eq!(ran, token.level());
+        return;
+    }
+    assert_eq!((ran, token.level().lanes()), (guaranteed(), guaranteed().lanes()));
+    let error = Level::named("sse2").expect_err("it is left out").to_string();
+    let better = guaranteed();
+    let lead =
+        format!("this build, for CPUs with {better}, leaves out sse2; there are scalar, {better}");
+    assert!(error.starts_with(&lead), "{error}");
+}
+
 #[test]
 fn blocks_are_plain_memory() {
     assert_eq!(size_of::<[Block8<f32>; 3]>(), 96);

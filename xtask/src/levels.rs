@@ -30,6 +30,12 @@ impl Levels {
     pub(crate) fn check(self, said: &str) -> Result<Vec<String>, String> {
         let expected = match self {
             Levels::OfThisCpu => of_this_cpu(),
+            Levels::OfThisCpuFrom(least) => {
+                let mut levels = of_this_cpu();
+                let first = levels.iter().position(|level| *level == least);
+                levels.drain(1..first.unwrap_or(levels.len()));
+                levels
+            }
             Levels::These(levels) => levels.to_vec(),
         };
         let said: Vec<&str> = said.lines().map(str::trim).collect();
@@ -53,6 +59,14 @@ mod tests {
             let error = levels.check(said).expect_err(said);
             assert!(error.ends_with("should be scalar, sse2"), "{error}");
         }
+    }
+
+    #[test]
+    fn a_build_that_guarantees_more_has_none_of_the_lesser_levels() {
+        let [first, .., best] = of_this_cpu()[..] else { return };
+        let levels = Levels::OfThisCpuFrom(best);
+        assert!(levels.check(&format!("{first}\n{best}\n")).is_ok());
+        assert!(levels.check(&of_this_cpu().join("\n")).is_err() || of_this_cpu().len() == 2);
     }
 
     #[test]

@@ -83,13 +83,13 @@ pub(super) fn front(
     BOLD.write(page, (x, y + 8), "The front, fastest first")?;
     NOTE.write(page, (x, y + 27), "ns per test, wrong per million (worst family)")?;
     let room = usize::try_from((height - 44) / 36).unwrap_or(0);
-    let default = points.iter().find(|point| point.default);
-    let apart =
-        default.filter(|default| !front.iter().any(|point| std::ptr::eq(*point, **default)));
-    let shown = front.len().min(room.saturating_sub(usize::from(apart.is_some())));
+    let is_on_front = |a: &Point| front.iter().any(|b| std::ptr::eq(a, *b));
+    let apart: Vec<&Point> =
+        points.iter().copied().filter(|point| point.default && !is_on_front(point)).collect();
+    let shown = front.len().min(room.saturating_sub(apart.len()));
     let mut top = y + 54;
     let entries = front.iter().enumerate().take(shown).map(|(i, p)| ((i + 1).to_string(), *p));
-    for (number, point) in entries.chain(apart.map(|point| (String::new(), *point))) {
+    for (number, point) in entries.chain(apart.into_iter().map(|point| (String::new(), point))) {
         let level = point.level;
         BOLD.write(page, (x, top + 8), &number)?;
         let at = (x + 28, top + 8);

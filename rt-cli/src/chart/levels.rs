@@ -1,4 +1,4 @@
-//! The times of one variant of each kernel at all of its levels.
+//! The times of what stands for each kernel at all of its levels.
 
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::style::text_anchor::HPos;
@@ -25,7 +25,7 @@ pub(super) fn draw(suite: &Suite, page: &Canvas, (x, y): Pixel, (width, height):
     let at = |ns: f64| scale.map(&Place::At(ns), (left, right));
 
     BOLD.write(page, (x + 4, y + 8), "Levels")?;
-    NOTE.write(page, (x + 4, y + 27), "one variant of each kernel at every level that it has")?;
+    NOTE.write(page, (x + 4, y + 27), "what renders, or one variant of a kernel, at its levels")?;
     let middle = Words { align: HPos::Center, ..NOTE };
     for tick in scale.key_points(10) {
         let x = scale.map(&tick, (left, right));

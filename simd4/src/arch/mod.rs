@@ -27,18 +27,18 @@ pub(crate) mod native {
     use crate::Simd;
 
     #[cfg(target_arch = "aarch64")]
-    type Best = super::aarch64::Neon;
+    pub(crate) type Best = super::aarch64::Neon;
     #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-    type Best = super::wasm32::Simd128;
+    pub(crate) type Best = super::wasm32::Simd128;
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    type Best = super::x86::Best;
+    pub(crate) type Best = super::x86::Best;
     #[cfg(not(any(
         target_arch = "aarch64",
         all(target_arch = "wasm32", target_feature = "simd128"),
         target_arch = "x86",
         target_arch = "x86_64"
     )))]
-    type Best = super::scalar::Scalar;
+    pub(crate) type Best = super::scalar::Scalar;
 
     /// Four lanes of `f32`, of the best level that the build guarantees.
     pub type f32x4 = <Best as Simd>::f32x4;
@@ -97,6 +97,10 @@ macro_rules! token {
         }
 
         impl $Token {
+            /// Whether every CPU that the build is for has the level.
+            #[allow(dead_code)]
+            pub(crate) const GUARANTEED: bool = cfg!(all($(target_feature = $feature),*));
+
             /// The token, if this CPU has the level. Without the feature `std`: if the build
             /// guarantees it.
             #[inline]
@@ -104,7 +108,7 @@ macro_rules! token {
                 #[cfg(feature = "std")]
                 let has = true $(&& std::arch::$detected!($feature))*;
                 #[cfg(not(feature = "std"))]
-                let has = cfg!(all($(target_feature = $feature),*));
+                let has = Self::GUARANTEED;
                 has.then_some($Token { _private: () })
             }
         }

@@ -34,6 +34,24 @@ fn prefetch<T>(at: *const T) {
     }
 }
 
+impl Sse2 {
+    /// Whether the build leaves the level out of what it dispatches to.
+    #[doc(hidden)]
+    pub const LEFT_OUT: bool = Sse41::GUARANTEED;
+}
+
+impl Sse41 {
+    /// Whether the build leaves the level out of what it dispatches to.
+    #[doc(hidden)]
+    pub const LEFT_OUT: bool = Avx2::GUARANTEED;
+}
+
+impl Avx2 {
+    /// Whether the build leaves the level out of what it dispatches to.
+    #[doc(hidden)]
+    pub const LEFT_OUT: bool = Avx512::GUARANTEED;
+}
+
 /// The best level that the build guarantees.
 pub(super) type Best = best::Best;
 
