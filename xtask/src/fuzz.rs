@@ -46,7 +46,7 @@ impl Options {
 
 /// Tries random input for a while; what it learns and what it finds stays in target/fuzz.
 pub(crate) fn fuzz(sh: &Shell, options: &Options) -> Result<(), String> {
-    let programs = build(sh)?;
+    let programs = build(sh, &[])?;
     let (folder, name) = (programs.join("../../corpus").join(&options.target), &options.target);
     sh.create_dir(&folder).map_err(|error| error.to_string())?;
     let (time, program) = (
@@ -66,7 +66,8 @@ pub(crate) fn check(sh: &Shell, install: bool) -> Done {
         return Done::skipped(reason);
     }
     let all = || {
-        let programs = build(sh)?;
+        // Quicker to compile, and fast enough for a few seconds.
+        let programs = build(sh, &["--config", "profile.dev.opt-level=1"])?;
         let found = format!("-artifact_prefix={}/", programs.join("../..").display());
         for name in TARGETS {
             let program = programs.join(name);
@@ -80,13 +81,14 @@ pub(crate) fn check(sh: &Shell, install: bool) -> Done {
 }
 
 /// Builds the targets; the folder in which they are.
-fn build(sh: &Shell) -> Result<PathBuf, String> {
+fn build(sh: &Shell, config: &[&str]) -> Result<PathBuf, String> {
     let (host, target_dir) = (cross::host(sh), sh.current_dir().join("target").join("fuzz"));
     let manifest = "tests/fuzz/Cargo.toml";
     // With `--target` the flags are for the programs alone, and not for what runs in the build.
     cmd!(sh, "cargo build --quiet --locked --manifest-path {manifest} --target {host}")
         .arg("--target-dir")
         .arg(&target_dir)
+        .args(config)
         .env("RUSTFLAGS", FLAGS)
         .run()
         .map_err(|error| error.to_string())?;

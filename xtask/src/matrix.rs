@@ -23,7 +23,7 @@ pub(crate) static TARGETS: &[Target] = &[
     // what at each of the others; where this can be done, and when it is.
 
     // The machine itself.
-    target("native",        NATIVE,      Directly,                           OfThisCpu,                                   Everything,  Some(Core),        Any,           EveryRun),
+    target("native",        NATIVE,      Directly,                           OfThisCpu,                                   Everything,  Some(Brief),       Any,           EveryRun),
     // Lesser CPUs: an instruction that one lacks kills the program. SandyBridge has AVX, but no
     // FMA: it must fall back to SSE4.1.
     target("qemu64",        NATIVE,      qemu("x86_64", "qemu64"),           These(&["scalar", "sse2"]),                  Brief,       None,              LinuxX86,      EveryRun),
@@ -36,13 +36,13 @@ pub(crate) static TARGETS: &[Target] = &[
     target("x86-64-v3",     V3,          Directly,                           OfThisCpuFrom("avx2"),                       Core,        Some(Conformance), Has("avx2"),   EveryRun),
     target("x86-64-v4",     V4,          Directly,                           OfThisCpuFrom("avx512"),                     Core,        Some(Conformance), Has("avx512"), EveryRun),
     // Other architectures.
-    target("aarch64",       AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Core,        Some(Brief),       Linux,         EveryRun),
+    target("aarch64",       AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Brief,       Some(Brief),       Linux,         EveryRun),
     target("cortex-a53",    AARCH64,     qemu("aarch64", "cortex-a53"),      These(&["scalar", "neon"]),                  Brief,       None,              Linux,         EveryRun),
     target("cortex-a72",    AARCH64,     qemu("aarch64", "cortex-a72"),      These(&["scalar", "neon"]),                  Brief,       None,              Linux,         OnDemand),
     target("aarch64-all",   AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Workspace,   None,              Linux,         OnDemand),
     target("i686",          I686,        Directly,                           OfThisCpu,                                   Core,        Some(Brief),       LinuxX86,      EveryRun),
-    target("wasm32",        WASM32,      Node,                               These(&["scalar"]),                          Core,        None,              Unix,          EveryRun),
-    target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Core,        Some(Core),        Unix,          EveryRun),
+    target("wasm32",        WASM32,      Node,                               These(&["scalar"]),                          Brief,       None,              Unix,          EveryRun),
+    target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Brief,       Some(Brief),       Unix,          EveryRun),
     // Without a level of their own: the definition holds for either order of bytes and for every
     // way to make vectors of scalar code.
     target("armv7",         ARMV7,       qemu("arm", "max"),                 These(&["scalar"]),                          Brief,       None,              Linux,         OnDemand),
@@ -166,11 +166,12 @@ pub(crate) enum Tests {
     Conformance,
 }
 
-/// What every architecture must hold.
-pub(crate) const CORE: [&str; 3] = ["simd4", "rt-kernels", "rt-tests"];
+/// What every architecture must hold. The few tests within rt-kernels, which know no architecture,
+/// would be compiled for a share of what all of it takes.
+pub(crate) const CORE: [&str; 2] = ["simd4", "rt-tests"];
 
 /// The tests of [`CORE`] that take an emulator ten seconds to minutes.
-pub(crate) const LONG: [&str; 15] = [
+pub(crate) const LONG: [&str; 13] = [
     "accelerators::meshes_aimed",
     "build::pathological_scenes",
     "threads_do_not_change",
@@ -183,9 +184,7 @@ pub(crate) const LONG: [&str; 15] = [
     "pictures::every_way",
     "precision::pictures_are_within",
     "precision::scenes_differ",
-    "watertight::ball",
-    "watertight::spiky_ball",
-    "watertight::tiny_ball",
+    "watertight::spiky_ball_of_every_plan",
 ];
 
 /// Which machines can try a target. The others leave it to them.

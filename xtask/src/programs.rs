@@ -62,10 +62,15 @@ impl Programs {
             true => settings_in_one_go(sh, target.build.rustflags),
             false => vec![],
         };
-        if target.build != Build::default() && matches!(target.run, Run::Directly) {
-            // To optimise across the units of a crate takes longer than tests gain by it, but for
-            // emulators, which run the host's own programs too.
-            settings.push(("CARGO_PROFILE_DEV_LTO", "off".to_owned()));
+        if target.build != Build::default() {
+            // As users build. What the host's own programs assert takes much longer to compile.
+            settings.push(("CARGO_PROFILE_DEV_DEBUG_ASSERTIONS", "false".to_owned()));
+            settings.push(("CARGO_PROFILE_DEV_OVERFLOW_CHECKS", "false".to_owned()));
+            if let Run::Directly = target.run {
+                // To optimise across the units of a crate takes longer than tests gain by it, but
+                // for emulators.
+                settings.push(("CARGO_PROFILE_DEV_LTO", "off".to_owned()));
+            }
         }
         command = command.envs(settings.iter().cloned());
         if target.of_workspace() && target.build.triple.is_some() {
@@ -177,7 +182,7 @@ impl Programs {
     fn chosen(&self, tests: Tests) -> impl Iterator<Item = &TestProgram> {
         let folders: &[&str] = match tests {
             Tests::Everything | Tests::Workspace => &[""],
-            Tests::Core | Tests::Brief => &["simd4", "rt-kernels", "tests"],
+            Tests::Core | Tests::Brief => &["simd4", "tests"],
             Tests::Conformance => &["simd4"],
         };
         let asked_for =
