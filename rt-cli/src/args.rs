@@ -151,6 +151,10 @@ pub(crate) struct ShadingArgs {
     /// Let light through everything.
     #[arg(long)]
     pub(crate) no_shadows: bool,
+    /// Estimate square roots and powers in shading: a little faster, by no difference that can be seen,
+    /// but not the same bytes on every machine.
+    #[arg(long)]
+    pub(crate) relaxed: bool,
     /// Leave out the pictures on surfaces.
     #[arg(long)]
     pub(crate) no_textures: bool,

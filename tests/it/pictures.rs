@@ -39,6 +39,7 @@ fn job(world: &World, scene: &Scene, integrator: Integrator, exec: Exec) -> Job 
         samples: 1,
         depth: 4,
         shadows: true,
+        relaxed: false,
         exec,
         threads: 1,
     }

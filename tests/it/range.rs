@@ -25,6 +25,7 @@ fn picture(scene: &Scene, integrator: Integrator) -> Film {
         samples: 1,
         depth: 3,
         shadows: true,
+        relaxed: false,
         exec: Exec::best().expect("a level"),
         threads: 1,
     };

@@ -60,7 +60,8 @@ pub(crate) fn cross(sh: &Shell, options: &Options) -> Result<(), String> {
         // The tests of a program start it themselves.
         command = command.env("RT_RUNNER", runner.join(" "));
     }
-    if let Some(cases) = target.cases(true).filter(|_| sh.var_os("PROPTEST_CASES").is_none()) {
+    if let Some(cases) = target.cases(target.best).filter(|_| sh.var_os("PROPTEST_CASES").is_none())
+    {
         command = command.env("PROPTEST_CASES", cases);
     }
     command.arg("--").args(&options.program).run().map_err(|error| error.to_string())

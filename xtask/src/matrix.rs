@@ -9,12 +9,15 @@ use Host::{Any, Has, Linux, LinuxX86, Unix};
 use Levels::{OfThisCpu, OfThisCpuFrom, These};
 use Link::{Gcc, Lld, Own};
 use Run::{Directly, Miri, Node, Qemu};
-use Tests::{Brief, Conformance, Core, Everything, Workspace};
+use Tests::{Brief, Conformance, Core, Dispatch, Everything, Workspace};
 use Tier::{EveryRun, OnDemand};
 
 /// How many cases proptest tries, and so how many rays the other tests trace, wherever programs
 /// run slowly or repeat what has been run in full: a sixteenth.
 pub(crate) const FEWER_CASES: &str = "16";
+
+/// The same where all that counts is which instructions run.
+pub(crate) const FEWEST_CASES: &str = "4";
 
 /// The table.
 #[rustfmt::skip]
@@ -26,23 +29,23 @@ pub(crate) static TARGETS: &[Target] = &[
     target("native",        NATIVE,      Directly,                           OfThisCpu,                                   Everything,  Some(Brief),       Any,           EveryRun),
     // Lesser CPUs: an instruction that one lacks kills the program. SandyBridge has AVX, but no
     // FMA: it must fall back to SSE4.1.
-    target("qemu64",        NATIVE,      qemu("x86_64", "qemu64"),           These(&["scalar", "sse2"]),                  Brief,       None,              LinuxX86,      EveryRun),
-    target("nehalem",       NATIVE,      qemu("x86_64", "Nehalem"),          These(&["scalar", "sse2", "sse4.1"]),         Brief,       None,              LinuxX86,      EveryRun),
-    target("sandybridge",   NATIVE,      qemu("x86_64", "SandyBridge"),      These(&["scalar", "sse2", "sse4.1"]),         Brief,       None,              LinuxX86,      EveryRun),
-    target("haswell",       NATIVE,      qemu("x86_64", "Haswell"),          These(&["scalar", "sse2", "sse4.1", "avx2"]), Brief,       None,              LinuxX86,      EveryRun),
+    target("qemu64",        NATIVE,      qemu("x86_64", "qemu64"),           These(&["scalar", "sse2"]),                  Dispatch,    None,              LinuxX86,      EveryRun),
+    target("nehalem",       NATIVE,      qemu("x86_64", "Nehalem"),          These(&["scalar", "sse2", "sse4.1"]),         Dispatch,    None,              LinuxX86,      EveryRun),
+    target("sandybridge",   NATIVE,      qemu("x86_64", "SandyBridge"),      These(&["scalar", "sse2", "sse4.1"]),         Dispatch,    None,              LinuxX86,      EveryRun),
+    target("haswell",       NATIVE,      qemu("x86_64", "Haswell"),          These(&["scalar", "sse2", "sse4.1", "avx2"]), Dispatch,    None,              LinuxX86,      EveryRun),
     // What the build guarantees is another level, lesser ones are left out, and the compiler has more
     // instructions to go wrong with.
     target("x86-64-v2",     V2,          Directly,                           OfThisCpuFrom("sse4.1"),                     Core,        Some(Conformance), Has("sse4.1"), EveryRun),
     target("x86-64-v3",     V3,          Directly,                           OfThisCpuFrom("avx2"),                       Core,        Some(Conformance), Has("avx2"),   EveryRun),
     target("x86-64-v4",     V4,          Directly,                           OfThisCpuFrom("avx512"),                     Core,        Some(Conformance), Has("avx512"), EveryRun),
     // Other architectures.
-    target("aarch64",       AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Brief,       Some(Brief),       Linux,         EveryRun),
-    target("cortex-a53",    AARCH64,     qemu("aarch64", "cortex-a53"),      These(&["scalar", "neon"]),                  Brief,       None,              Linux,         EveryRun),
-    target("cortex-a72",    AARCH64,     qemu("aarch64", "cortex-a72"),      These(&["scalar", "neon"]),                  Brief,       None,              Linux,         OnDemand),
+    target("aarch64",       AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Brief,       Some(Dispatch),    Linux,         EveryRun),
+    target("cortex-a53",    AARCH64,     qemu("aarch64", "cortex-a53"),      These(&["scalar", "neon"]),                  Dispatch,    None,              Linux,         EveryRun),
+    target("cortex-a72",    AARCH64,     qemu("aarch64", "cortex-a72"),      These(&["scalar", "neon"]),                  Dispatch,    None,              Linux,         OnDemand),
     target("aarch64-all",   AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Workspace,   None,              Linux,         OnDemand),
-    target("i686",          I686,        Directly,                           OfThisCpu,                                   Core,        Some(Brief),       LinuxX86,      EveryRun),
+    target("i686",          I686,        Directly,                           OfThisCpu,                                   Core,        Some(Dispatch),    LinuxX86,      EveryRun),
     target("wasm32",        WASM32,      Node,                               These(&["scalar"]),                          Brief,       None,              Unix,          EveryRun),
-    target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Brief,       Some(Brief),       Unix,          EveryRun),
+    target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Brief,       Some(Dispatch),    Unix,          EveryRun),
     // Without a level of their own: the definition holds for either order of bytes and for every
     // way to make vectors of scalar code.
     target("armv7",         ARMV7,       qemu("arm", "max"),                 These(&["scalar"]),                          Brief,       None,              Linux,         OnDemand),
@@ -159,9 +162,11 @@ pub(crate) enum Tests {
     Workspace,
     /// Conformance, kernels and golden pictures: the packages [`CORE`].
     Core,
-    /// The same without [`LONG`]: where programs run slowly, and on machines that share them with
-    /// one that ran all.
+    /// The same without [`LONG`]: where programs run slowly.
     Brief,
+    /// Conformance, and of the kernels what is in [`DISPATCHED`]: on CPUs and at levels of programs
+    /// that another ran more of.
+    Dispatch,
     /// Every operation against its definition: the package `simd4`.
     Conformance,
 }
@@ -171,7 +176,7 @@ pub(crate) enum Tests {
 pub(crate) const CORE: [&str; 2] = ["simd4", "rt-tests"];
 
 /// The tests of [`CORE`] that take an emulator ten seconds to minutes.
-pub(crate) const LONG: [&str; 13] = [
+pub(crate) const LONG: [&str; 16] = [
     "accelerators::meshes_aimed",
     "build::pathological_scenes",
     "threads_do_not_change",
@@ -184,7 +189,20 @@ pub(crate) const LONG: [&str; 13] = [
     "pictures::every_way",
     "precision::pictures_are_within",
     "precision::scenes_differ",
+    "watertight::ball_far",
+    "watertight::spiky_ball_far",
     "watertight::spiky_ball_of_every_plan",
+    "watertight::tiny_ball",
+];
+
+/// Of the tests of kernels, those that together take every accelerator, level and packet, and render.
+pub(crate) const DISPATCHED: [&str; 6] = [
+    "accelerators::closest_and_any",
+    "closest_point::nothing_is_closer",
+    "pictures::pictures_are_golden",
+    "sphere::hit_and_miss",
+    "triangle::hit_and_miss",
+    "watertight::ball_at",
 ];
 
 /// Which machines can try a target. The others leave it to them.
@@ -255,10 +273,11 @@ impl Target {
     }
 
     /// The number of cases for proptest, if not its own.
-    pub(crate) fn cases(&self, level_is_best: bool) -> Option<&'static str> {
-        match self.run {
-            Miri => Some("2"),
-            Directly if self.best == Everything && level_is_best => None,
+    pub(crate) fn cases(&self, tests: Tests) -> Option<&'static str> {
+        match (self.run, tests) {
+            (Miri, _) => Some("2"),
+            (_, Everything) => None,
+            (_, Dispatch) => Some(FEWEST_CASES),
             _ => Some(FEWER_CASES),
         }
     }

@@ -1,7 +1,7 @@
 //! The programs of a build: made once, run on every machine and at every level that they are for.
 
 use crate::cross::{cargo, runner};
-use crate::matrix::{Build, CORE, LONG, Run, Target, Tests};
+use crate::matrix::{Build, CORE, DISPATCHED, LONG, Run, Target, Tests};
 use crate::report::{Done, Tally, skips};
 use serde_json::Value;
 use std::ffi::OsString;
@@ -48,6 +48,17 @@ fn settings_in_one_go(sh: &Shell, rustflags: &str) -> Vec<(&'static str, String)
         ("CARGO_PROFILE_DEV_DEBUG", "0".to_owned()),
         ("RUSTFLAGS", flags.join(" ").trim().to_owned()),
     ]
+}
+
+impl TestProgram {
+    /// The arguments by which it runs no more than those tests.
+    fn filters(&self, tests: Tests) -> Vec<&'static str> {
+        match tests {
+            Tests::Brief => LONG.into_iter().flat_map(|name| ["--skip", name]).collect(),
+            Tests::Dispatch if self.folder.ends_with("tests") => DISPATCHED.to_vec(),
+            _ => vec![],
+        }
+    }
 }
 
 impl Programs {
@@ -140,13 +151,15 @@ impl Programs {
     ) -> Done {
         let mut commands: Vec<Command> = match (target.run, tests) {
             (Run::Miri, _) => vec![miri_test(sh, target)],
-            _ => self.chosen(tests).map(|test| self.command(sh, target, test)).collect(),
-        };
-        if tests == Tests::Brief {
-            for command in &mut commands {
-                command.args(LONG.iter().flat_map(|name| ["--skip", name]));
+            _ => {
+                let command = |test| {
+                    let mut command = self.command(sh, target, test);
+                    command.args(test.filters(tests));
+                    command
+                };
+                self.chosen(tests).map(command).collect()
             }
-        }
+        };
         if tests == Tests::Everything {
             let docs = cmd!(sh, "cargo test --quiet --locked --workspace --doc");
             commands.push(docs.envs(self.settings.iter().cloned()).into());
@@ -160,15 +173,21 @@ impl Programs {
             if let Some(level) = level {
                 command.env("SIMD4_LEVEL", level);
             }
-            if let Some(cases) = target.cases(level.is_none()) {
+            if let Some(cases) = target.cases(tests) {
                 command.env("PROPTEST_CASES", cases);
             }
             let (tally, failure) = test(command, &mut skipped);
             sum += tally;
             wrong.extend(failure);
         }
-        if tests == Tests::Brief {
-            skipped.extend(LONG.map(|name| format!("{name}: too long to repeat here")));
+        match tests {
+            Tests::Brief => {
+                skipped.extend(LONG.map(|name| format!("{name}: too long to repeat here")));
+            }
+            Tests::Dispatch => {
+                skipped.push("most tests of kernels: run on another CPU or level".into())
+            }
+            _ => {}
         }
         if sum.passed == 0 && wrong.is_empty() {
             wrong.push("no test was run".to_owned());
@@ -182,7 +201,7 @@ impl Programs {
     fn chosen(&self, tests: Tests) -> impl Iterator<Item = &TestProgram> {
         let folders: &[&str] = match tests {
             Tests::Everything | Tests::Workspace => &[""],
-            Tests::Core | Tests::Brief => &["simd4", "tests"],
+            Tests::Core | Tests::Brief | Tests::Dispatch => &["simd4", "tests"],
             Tests::Conformance => &["simd4"],
         };
         let asked_for =

@@ -27,6 +27,9 @@ pub struct Job {
     pub depth: u32,
     /// Whether lights cast shadows.
     pub shadows: bool,
+    /// Whether shading may estimate: faster, and not the same bits on every machine. Of the light that
+    /// a surface of shininess n sends back, the share that is wrong is below (n + 4) / 2^21.
+    pub relaxed: bool,
     /// Level and packet size.
     pub exec: Exec,
     /// Threads to render with.
@@ -46,6 +49,7 @@ impl Job {
             samples: 1,
             depth: 0,
             shadows: false,
+            relaxed: false,
             exec,
             threads: 1,
         }

@@ -90,6 +90,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Error> {
         samples: args.picture.spp,
         depth: args.shading.depth,
         shadows: !args.shading.no_shadows,
+        relaxed: args.shading.relaxed,
         exec: world.exec(exec),
         threads,
     };

@@ -16,6 +16,7 @@ pub(crate) fn identity(world: &World, job: &Job) -> Vec<String> {
         samples,
         depth,
         shadows,
+        relaxed,
         // The pixels do not depend on these.
         exec: _,
         threads: _,
@@ -31,6 +32,7 @@ pub(crate) fn identity(world: &World, job: &Job) -> Vec<String> {
         format!("samples {samples}"),
         format!("depth {depth}"),
         format!("shadows {shadows}"),
+        format!("relaxed {relaxed}"),
         format!("kernel {}", world.method().name()),
     ];
     if *integrator == Integrator::Heat {

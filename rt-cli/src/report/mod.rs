@@ -152,6 +152,7 @@ impl Rendered<'_> {
             "layout": world.layout(),
             "packet": job.exec.lanes().to_string(),
             "kernel": self.kernel.method().name(),
+            "relaxed": job.relaxed,
             "tolerance": self.kernel.json(),
             "build_ms": ms(world.build_time()),
             "trace_ms": ms(made.all().time),

@@ -109,6 +109,18 @@ fn light_and_shading_have_their_effect() {
     assert_eq!(with(&["--depth", "5"]), seen[0].1);
 }
 
+/// Estimates are not for the eye.
+#[test]
+fn a_relaxed_picture_looks_the_same() {
+    let scratch = Scratch::with_room();
+    let picture = |flags: &[&str]| Picture::decode(&png(&scratch, "room.obj", flags)).pixels;
+    let light = ["--light", "-1,2.5,1.5"];
+    let (exact, relaxed) = (picture(&light), picture(&[&light[..], &["--relaxed"]].concat()));
+    assert_eq!(exact.len(), relaxed.len());
+    let most = exact.iter().zip(&relaxed).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(most <= Some(1), "{most:?}");
+}
+
 #[test]
 fn the_background_is_what_the_flag_says_in_srgb() {
     let scratch = Scratch::new();

@@ -190,6 +190,7 @@ fn whatever_changes_a_pixel_is_another_picture() {
         &["--integrator", "heat", "--accel", "kd"],
         &["--depth", "4"],
         &["--no-shadows"],
+        &["--relaxed"],
         &["--kernel", "wald"],
     ] {
         let description = description(&scratch, other);

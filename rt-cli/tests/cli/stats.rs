@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::support::{BUILDERS, LAYOUTS, Scratch, keys, levels};
 
-const KEYS: [&str; 30] = [
+const KEYS: [&str; 31] = [
     "scene",
     "output",
     "width",
@@ -20,6 +20,7 @@ const KEYS: [&str; 30] = [
     "layout",
     "packet",
     "kernel",
+    "relaxed",
     "tolerance",
     "build_ms",
     "trace_ms",

@@ -138,6 +138,7 @@ mod tests {
             samples: 1,
             depth: 0,
             shadows: false,
+            relaxed: false,
             exec: Exec::best().expect("a level"),
             threads: 1,
         })

@@ -145,7 +145,7 @@ impl Scratch {
     /// Adds what one light adds, or sends shadow rays to it.
     fn lit_by(&mut self, job: &TileJob<'_>, light: &PointLight, colors: &mut [Vec3]) {
         let Scratch { met, points, lit, .. } = self;
-        shade::light(job.job.exec, points, light, lit);
+        shade::light(job.job.exec, job.job.relaxed, points, light, lit);
         for (i, Met { path, surface, finish }) in met.iter().enumerate() {
             let to_light = lit.to_light(i);
             let mut weight = lit.added(i);

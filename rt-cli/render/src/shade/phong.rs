@@ -29,34 +29,48 @@ pub(crate) fn phong(finish: &Finish, normal: Vec3, to_light: Vec3, dir: Vec3) ->
 /// lane has its own.
 ///
 /// Single rays have single points; else there are as many as the level has lanes. The bits do not
-/// depend on it.
+/// depend on it, unless `relaxed`: see [`Job::relaxed`](crate::Job::relaxed).
 ///
 /// Source: Wald, Slusallek, Benthin and Wagner 2001, Section 5. Deviations: (1) what lights add is
 /// computed before it is known whether they are visible, so that no shadow ray is sent where they add
 /// nothing; (2) points are rearranged into lanes once for all lights; (3) any number of lanes.
-pub(crate) fn light(exec: Exec, points: &Points, light: &PointLight, lit: &mut Lit) {
+pub(crate) fn light(exec: Exec, relaxed: bool, points: &Points, light: &PointLight, lit: &mut Lit) {
     lit.resize(points.len());
-    match exec.packet {
-        PacketSize::Single => in_lanes::<scalar::f32x1>(simd4::Scalar::new(), points, light, lit),
-        _ => dispatch!(exec.level, s => native(s, points, light, lit)),
+    match (exec.packet, relaxed) {
+        (PacketSize::Single, _) => {
+            in_lanes::<scalar::f32x1, false>(simd4::Scalar::new(), points, light, lit);
+        }
+        (_, false) => dispatch!(exec.level, s => native::<false, _>(s, points, light, lit)),
+        (_, true) => dispatch!(exec.level, s => native::<true, _>(s, points, light, lit)),
     }
 }
 
 #[inline(always)]
-fn native<S: Simd>(s: S, points: &Points, light: &PointLight, lit: &mut Lit) {
-    in_lanes::<S::f32s>(s, points, light, lit);
+fn native<const RELAXED: bool, S: Simd>(s: S, points: &Points, light: &PointLight, lit: &mut Lit) {
+    in_lanes::<S::f32s, RELAXED>(s, points, light, lit);
 }
 
 #[inline(always)]
-fn in_lanes<V: SimdF32>(s: V::Simd, points: &Points, light: &PointLight, lit: &mut Lit) {
+fn in_lanes<V: SimdF32, const RELAXED: bool>(
+    s: V::Simd,
+    points: &Points,
+    light: &PointLight,
+    lit: &mut Lit,
+) {
     let (zero, one) = (V::splat(s, 0.0), V::splat(s, 1.0));
     let position = math::Vec3::splat(s, light.position.to_array());
     let [red, green, blue] = light.color.to_array().map(|channel| V::splat(s, channel));
     let mut i = 0;
     while i < points.len() {
         let towards = position - vector(s, &points.leave, i);
-        let distance = towards.length();
-        let to_light = towards * (one / distance);
+        let (distance, to_light) = if RELAXED {
+            let squared: V = towards.dot(towards);
+            let inverse = squared.rsqrt_fast();
+            (squared * inverse, towards * inverse)
+        } else {
+            let distance = towards.length();
+            (distance, towards * (one / distance))
+        };
         let true_normal = vector::<V>(s, &points.true_normal, i);
         let normal = vector::<V>(s, &points.normal, i);
         let cosine = normal.dot(to_light);
@@ -66,7 +80,14 @@ fn in_lanes<V: SimdF32>(s: V::Simd, points: &Points, light: &PointLight, lit: &m
         let reflected = normal * (cosine + cosine) - to_light;
         let highlight = zero - vector::<V>(s, &points.dir, i).dot(reflected);
         let highlight = highlight.max(zero).min(one);
-        let power = highlight.pow(V::load(s, &points.shininess[i..]));
+        let shininess = V::load(s, &points.shininess[i..]);
+        let power = if RELAXED {
+            // 0 to the power 0 is 1, and 0 times the logarithm of 0 no number.
+            let power = (highlight.log2() * shininess).exp2();
+            V::select(shininess.eq(zero), one, power)
+        } else {
+            highlight.pow(shininess)
+        };
         let sent = vector(s, &points.diffuse, i) * cosine + vector(s, &points.specular, i) * power;
         let added = math::Vec3::new(sent.x * red, sent.y * green, sent.z * blue);
         store(math::Vec3::select(faces, added, math::Vec3::splat(s, [0.0; 3])), &mut lit.added, i);

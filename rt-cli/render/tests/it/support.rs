@@ -20,6 +20,7 @@ pub(crate) fn job(scene: &Scene, size: (u32, u32), depth: u32) -> Job {
         samples: 1,
         depth,
         shadows: true,
+        relaxed: false,
         exec: Exec::best().expect("a level"),
         threads: 2,
     }

@@ -110,6 +110,7 @@ fn prepared(
         samples: 1,
         depth: 0,
         shadows: false,
+        relaxed: false,
         exec: Exec::at(best_level()?),
         threads: 1,
     };
