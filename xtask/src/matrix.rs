@@ -9,7 +9,7 @@ use Host::{Any, Has, Linux, LinuxX86, Unix};
 use Levels::{OfThisCpu, OfThisCpuFrom, These};
 use Link::{Gcc, Lld, Own};
 use Run::{Directly, Miri, Node, Qemu};
-use Tests::{Brief, Conformance, Core, Dispatch, Everything, Workspace};
+use Tests::{Brief, Conformance, Dispatch, Everything, Workspace};
 use Tier::{EveryRun, OnDemand};
 
 /// How many cases proptest tries, and so how many rays the other tests trace, wherever programs
@@ -35,15 +35,15 @@ pub(crate) static TARGETS: &[Target] = &[
     target("haswell",       NATIVE,      qemu("x86_64", "Haswell"),          These(&["scalar", "sse2", "sse4.1", "avx2"]), Dispatch,    None,              LinuxX86,      EveryRun),
     // What the build guarantees is another level, lesser ones are left out, and the compiler has more
     // instructions to go wrong with.
-    target("x86-64-v2",     V2,          Directly,                           OfThisCpuFrom("sse4.1"),                     Core,        Some(Conformance), Has("sse4.1"), EveryRun),
-    target("x86-64-v3",     V3,          Directly,                           OfThisCpuFrom("avx2"),                       Core,        Some(Conformance), Has("avx2"),   EveryRun),
-    target("x86-64-v4",     V4,          Directly,                           OfThisCpuFrom("avx512"),                     Core,        Some(Conformance), Has("avx512"), EveryRun),
+    target("x86-64-v2",     V2,          Directly,                           OfThisCpuFrom("sse4.1"),                     Brief,       Some(Conformance), Has("sse4.1"), EveryRun),
+    target("x86-64-v3",     V3,          Directly,                           OfThisCpuFrom("avx2"),                       Brief,       Some(Conformance), Has("avx2"),   EveryRun),
+    target("x86-64-v4",     V4,          Directly,                           OfThisCpuFrom("avx512"),                     Brief,       Some(Conformance), Has("avx512"), EveryRun),
     // Other architectures.
     target("aarch64",       AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Brief,       Some(Dispatch),    Linux,         EveryRun),
     target("cortex-a53",    AARCH64,     qemu("aarch64", "cortex-a53"),      These(&["scalar", "neon"]),                  Dispatch,    None,              Linux,         EveryRun),
     target("cortex-a72",    AARCH64,     qemu("aarch64", "cortex-a72"),      These(&["scalar", "neon"]),                  Dispatch,    None,              Linux,         OnDemand),
     target("aarch64-all",   AARCH64,     qemu("aarch64", "max"),             These(&["scalar", "neon"]),                  Workspace,   None,              Linux,         OnDemand),
-    target("i686",          I686,        Directly,                           OfThisCpu,                                   Core,        Some(Dispatch),    LinuxX86,      EveryRun),
+    target("i686",          I686,        Directly,                           OfThisCpu,                                   Brief,       Some(Dispatch),    LinuxX86,      EveryRun),
     target("wasm32",        WASM32,      Node,                               These(&["scalar"]),                          Brief,       None,              Unix,          EveryRun),
     target("wasm32-simd",   WASM32_SIMD, Node,                               These(&["scalar", "simd128"]),               Brief,       Some(Dispatch),    Unix,          EveryRun),
     // Without a level of their own: the definition holds for either order of bytes and for every
@@ -160,9 +160,7 @@ pub(crate) enum Tests {
     Everything,
     /// All of the workspace, but for those in its documentation.
     Workspace,
-    /// Conformance, kernels and golden pictures: the packages [`CORE`].
-    Core,
-    /// The same without [`LONG`]: where programs run slowly.
+    /// Conformance, kernels and golden pictures: the packages [`CORE`], without [`LONG`].
     Brief,
     /// Conformance, and of the kernels what is in [`DISPATCHED`]: on CPUs and at levels of programs
     /// that another ran more of.
@@ -175,7 +173,7 @@ pub(crate) enum Tests {
 /// would be compiled for a share of what all of it takes.
 pub(crate) const CORE: [&str; 2] = ["simd4", "rt-tests"];
 
-/// The tests of [`CORE`] that take an emulator ten seconds to minutes.
+/// The tests of [`CORE`] that take an emulator ten seconds to minutes, and that the host runs in full.
 pub(crate) const LONG: [&str; 16] = [
     "accelerators::meshes_aimed",
     "build::pathological_scenes",
