@@ -203,7 +203,7 @@ fn meshes_aimed_at_edges_and_vertices() {
     ];
     for (turn, (name, mesh, shape)) in meshes.into_iter().enumerate() {
         let (scene, edges) = (mesh.primitives(), mesh.edges());
-        let rays: Rays = (0..rays(4_000))
+        let rays: Rays = (0..rays(2_000))
             .map(|i| {
                 let [a, b] = random.pick(&edges).map(|i| mesh.vertices[i as usize]);
                 let target = if i % 2 == 0 { a } else { aim::between(a, b, random.unit()) };

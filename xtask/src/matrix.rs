@@ -203,6 +203,10 @@ pub(crate) const DISPATCHED: [&str; 6] = [
     "watertight::ball_at",
 ];
 
+/// Of conformance what the others need not repeat, since no level has a part in it: the definition of
+/// elementary functions against the real ones.
+pub(crate) const OF_THE_DEFINITION: &str = "elementary::errors";
+
 /// Which machines can try a target. The others leave it to them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Host {

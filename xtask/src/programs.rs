@@ -1,12 +1,13 @@
 //! The programs of a build: made once, run on every machine and at every level that they are for.
 
 use crate::cross::{cargo, runner};
-use crate::matrix::{Build, CORE, DISPATCHED, LONG, Run, Target, Tests};
+use crate::matrix::{Build, CORE, DISPATCHED, LONG, OF_THE_DEFINITION, Run, Target, Tests};
 use crate::report::{Done, Tally, skips};
 use serde_json::Value;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::thread;
 use xshell::{Cmd, Shell, cmd};
 
 /// What cargo has built.
@@ -56,6 +57,7 @@ impl TestProgram {
         match tests {
             Tests::Brief => LONG.into_iter().flat_map(|name| ["--skip", name]).collect(),
             Tests::Dispatch if self.folder.ends_with("tests") => DISPATCHED.to_vec(),
+            Tests::Dispatch => vec!["--skip", OF_THE_DEFINITION],
             _ => vec![],
         }
     }
@@ -164,9 +166,6 @@ impl Programs {
             let docs = cmd!(sh, "cargo test --quiet --locked --workspace --doc");
             commands.push(docs.envs(self.settings.iter().cloned()).into());
         }
-        let mut sum = Tally::default();
-        let mut skipped = Vec::new();
-        let mut wrong = Vec::new();
         for command in &mut commands {
             // Each would change what the tests check.
             command.env_remove("RT_BLESS").env_remove("SIMD4_LEVEL");
@@ -176,9 +175,22 @@ impl Programs {
             if let Some(cases) = target.cases(tests) {
                 command.env("PROPTEST_CASES", cases);
             }
-            let (tally, failure) = test(command, &mut skipped);
+        }
+        let (mut sum, mut skipped, mut wrong) = (Tally::default(), Vec::new(), Vec::new());
+        let mut add = |(tally, skips, failure): Tested| {
             sum += tally;
+            skipped.extend(skips);
             wrong.extend(failure);
+        };
+        if matches!(tests, Tests::Brief | Tests::Dispatch) {
+            // What is longest in one program leaves room for others.
+            thread::scope(|scope| {
+                let run = |command| scope.spawn(move || test(command));
+                let running: Vec<_> = commands.iter_mut().map(run).collect();
+                running.into_iter().for_each(|run| add(run.join().expect("it does not panic")));
+            });
+        } else {
+            commands.iter_mut().map(test).for_each(add);
         }
         match tests {
             Tests::Brief => {
@@ -242,9 +254,11 @@ fn words(sh: &Shell, target: &Target, program: &Path) -> Vec<OsString> {
     runner.chain([program.into()]).collect()
 }
 
-/// Runs tests: the count, and what went wrong. Their output is shown only then. Adds why any were
-/// skipped.
-fn test(command: &mut Command, skipped: &mut Vec<String>) -> (Tally, Option<String>) {
+/// What came of a program of tests: the count, why any were skipped, and what went wrong.
+type Tested = (Tally, Vec<String>, Option<String>);
+
+/// Runs tests. Their output is shown only if one fails.
+fn test(command: &mut Command) -> Tested {
     let mut shown = format!("{command:?}");
     for variable in ["SIMD4_LEVEL", "PROPTEST_CASES"] {
         let set = command.get_envs().find(|(name, _)| *name == variable);
@@ -255,14 +269,14 @@ fn test(command: &mut Command, skipped: &mut Vec<String>) -> (Tally, Option<Stri
         }
     }
     match command.stdin(Stdio::null()).output() {
-        Err(error) => (Tally::default(), Some(format!("{error}: {shown}"))),
+        Err(error) => (Tally::default(), vec![], Some(format!("{error}: {shown}"))),
         Ok(output) => {
             let stdout = String::from_utf8_lossy(&output.stdout);
             let stderr = String::from_utf8_lossy(&output.stderr);
             let mut tally = Tally::of(&stdout);
-            skipped.extend(skips(&stdout).chain(skips(&stderr)));
+            let skipped = skips(&stdout).chain(skips(&stderr)).collect();
             if output.status.success() {
-                return (tally, None);
+                return (tally, skipped, None);
             }
             let passed = |line: &&str| line.starts_with("test ") && line.ends_with(" ... ok");
             for line in stdout.lines().filter(|line| !passed(line)).chain(stderr.lines()) {
@@ -270,7 +284,7 @@ fn test(command: &mut Command, skipped: &mut Vec<String>) -> (Tally, Option<Stri
             }
             // A program that crashed counts nothing; "0 failed" would be a lie.
             tally.failed = tally.failed.max(1);
-            (tally, Some(format!("{}: {shown}", output.status)))
+            (tally, skipped, Some(format!("{}: {shown}", output.status)))
         }
     }
 }

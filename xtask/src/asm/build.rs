@@ -18,16 +18,20 @@ pub(crate) fn target_directory(sh: &Shell) -> Result<PathBuf, String> {
     Ok(directory.into())
 }
 
-/// Compiles the probe in release mode and reads its assembly.
-pub(crate) fn listing(sh: &Shell, target: &Target, features: &str) -> Result<Listing, String> {
+/// Compiles the probe in release mode and reads its assembly. In a folder of its own, so that no build
+/// waits for another.
+pub(crate) fn listing(target: &Target, features: &str) -> Result<Listing, String> {
+    let sh = &crate::root()?;
     let Target { triple, rustflags, .. } = target;
-    let directory = target_directory(sh)?.join("asm");
+    let directory = target_directory(sh)?.join("asm").join(triple);
     sh.create_dir(&directory).map_err(|error| error.to_string())?;
-    let file = directory.join(format!("{PROBE}{features}-{triple}.s"));
+    let file = directory.join(format!("{PROBE}{features}.s"));
     // One unit, as more would make several files. The newer mangling names the level that a
     // generic function is of. Lines' places are of no use.
     let emit = format!("asm={}", file.display());
     cmd!(sh, "cargo rustc --quiet --locked --release --lib -p {PROBE} --features={features}")
+        .arg("--target-dir")
+        .arg(&directory)
         .args(["--target", triple, "--", "--emit", &emit, "-Ccodegen-units=1", "-Cdebuginfo=0"])
         .args(["-Csymbol-mangling-version=v0", "-Cllvm-args=-x86-asm-syntax=intel"])
         // And so not from the environment or a configuration.
@@ -38,7 +42,7 @@ pub(crate) fn listing(sh: &Shell, target: &Target, features: &str) -> Result<Lis
         .map_err(|error| error.to_string())?;
     let text = sh.read_file(&file).map_err(|error| {
         // Cargo does not know of the file, and takes for fresh what is there but for it.
-        format!("{error}; then cargo clean --release --target {triple} -p {PROBE}")
+        format!("{error}; then remove {}", directory.display())
     })?;
     Ok(Listing::parse(&text))
 }

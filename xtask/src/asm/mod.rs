@@ -17,8 +17,10 @@ mod text;
 
 use crate::report::{Done, Report};
 use crate::setup;
+use std::thread;
 use table::Table;
 use targets::{TARGETS, Target};
+use text::Listing;
 use xshell::{Shell, cmd};
 
 /// The file of the documentation that has the table.
@@ -39,12 +41,22 @@ pub(crate) fn asm(sh: &Shell, bless: bool) -> bool {
 /// Checks the operations, or with `bless` writes their table and checks the rest.
 pub(crate) fn operations(sh: &Shell, report: &mut Report, bless: bool) {
     let mut table = Table::default();
-    for target in &TARGETS {
-        report.step("asm", target.name, || match setup::standard_library(sh, target.triple) {
-            Err(missing) => Done::skipped(missing),
-            Ok(()) => probe(sh, target, &mut table).into(),
+    thread::scope(|scope| {
+        // Each is one unit, and so takes one core.
+        let listings = TARGETS.each_ref().map(|target| {
+            let there = setup::standard_library(sh, target.triple);
+            (target, there.map(|()| scope.spawn(|| build::listing(target, ""))))
         });
-    }
+        for (target, listing) in listings {
+            report.step("asm", target.name, || match listing {
+                Err(missing) => Done::skipped(missing),
+                Ok(listing) => {
+                    let listing = listing.join().expect("it does not panic");
+                    listing.and_then(|listing| probe(target, &listing, &mut table)).into()
+                }
+            });
+        }
+    });
     report.step("asm", "table", || match bless {
         true => write(sh, &table).into(),
         false => compare(sh, &table),
@@ -60,14 +72,13 @@ pub(crate) fn shipped(sh: &Shell, report: &mut Report) {
 }
 
 /// Holds a target's code to the gates and adds its levels to the table.
-fn probe(sh: &Shell, target: &Target, table: &mut Table) -> Result<(), String> {
-    let listing = build::listing(sh, target, "")?;
-    table.add(target, &listing);
+fn probe(target: &Target, listing: &Listing, table: &mut Table) -> Result<(), String> {
+    table.add(target, listing);
     let mut levels = target.levels.iter().map(|level| level.name);
     if let Some(level) = levels.find(|level| table.missing().any(|missing| missing == *level)) {
         return Err(format!("the probe has no operations of {level}"));
     }
-    none(gates::check(&listing, target.arch).iter().map(ToString::to_string).collect())
+    none(gates::check(listing, target.arch).iter().map(ToString::to_string).collect())
 }
 
 /// Fails with the faults, if there are any.
@@ -128,7 +139,7 @@ mod tests {
     fn a_closure_that_has_fallen_out_of_its_level_is_caught() {
         let sh = crate::root().expect("there is a repository");
         setup::standard_library(&sh, X86_64.triple).expect("there is the target");
-        let listing = build::listing(&sh, &X86_64, "planted").expect("it compiles");
+        let listing = build::listing(&X86_64, "planted").expect("it compiles");
         let faults = gates::check(&listing, X86_64.arch);
         let caught = |rule, function: &str, instruction: &str| {
             faults.iter().any(|fault| {
