@@ -93,7 +93,7 @@
 //! For AltiVec that loses less than it seems. Of the sample kernels in `simd4/probe`, built for
 //! powerpc64le, `dot` and `normalize` do all their arithmetic on four lanes at once (`xvmulsp`,
 //! `xvaddsp`, `xvdivsp`, `xvsqrtsp`: VSX, which has AltiVec's registers and as many more), `slab`
-//! all but 6 instructions of 167 (`xvmaxsp`, `xvcmpgtsp`, AltiVec's own `vadduwm`); `argmin` is
+//! all but 6 instructions of 165 (`xvmaxsp`, `xvcmpgtsp`, AltiVec's own `vadduwm`); `argmin` is
 //! scalar. So is an operation whose lanes come in registers and not in memory (four `xsmulsp`).
 //! To see it:
 //!
