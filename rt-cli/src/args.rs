@@ -332,7 +332,7 @@ pub(crate) struct MeasureArgs {
     /// Fewer rays: some seconds.
     #[arg(long)]
     quick: bool,
-    /// Rays of each family [default: 1000000, or 4096 with --quick].
+    /// Rays of each family [default: 1000000, or 3584 with --quick].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     rays: Option<u32>,
     /// How often everything is timed [default: 21, or 5 with --quick].
@@ -356,7 +356,7 @@ pub(crate) struct MeasureArgs {
 impl MeasureArgs {
     /// Rays of each family.
     pub(crate) fn rays(&self) -> usize {
-        self.rays.unwrap_or(if self.quick { 4_096 } else { 1_000_000 }) as usize
+        self.rays.unwrap_or(if self.quick { 3_584 } else { 1_000_000 }) as usize
     }
 
     /// What a family is set to, where it is commonly set to that.
