@@ -152,7 +152,7 @@ pub(crate) struct ShadingArgs {
     #[arg(long)]
     pub(crate) no_shadows: bool,
     /// Estimate square roots and powers in shading: a little faster, by no difference that can be seen,
-    /// but not the same bytes on every machine.
+    /// but not the same bytes on every machine. Rays in packets of one are shaded as without it.
     #[arg(long)]
     pub(crate) relaxed: bool,
     /// Leave out the pictures on surfaces.

@@ -2,7 +2,7 @@
 
 use rt_kernels::catalogue::Listed;
 
-use crate::{BATCH, Family, Row};
+use crate::{BATCH, Family, Row, Tally};
 
 /// The worst that a kernel did in any family.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,6 +49,10 @@ pub(crate) const fn ceiling(
 
 /// The worst of one kernel over its rows.
 pub fn worst<F: Family>(rows: &[&Row<F>]) -> Worst {
+    worst_by(Tally::t_p99, rows)
+}
+
+fn worst_by<F: Family>(t_p99: fn(&Tally) -> f64, rows: &[&Row<F>]) -> Worst {
     let mut worst = Worst::default();
     for row in rows {
         let tally = &row.tally;
@@ -58,7 +62,7 @@ pub fn worst<F: Family>(rows: &[&Row<F>]) -> Worst {
         if row.setting.offset == 0.0 {
             worst.band = worst.band.max(tally.band);
             if row.family.facts().fair {
-                worst.t_p99 = worst.t_p99.max(tally.t_p99());
+                worst.t_p99 = worst.t_p99.max(t_p99(tally));
             }
         }
     }
@@ -87,14 +91,17 @@ pub fn complaints<F: Family>(rows: &[Row<F>]) -> Vec<String> {
         };
         // Estimates differ between machines.
         let slack = if kernel.is_exact() { 1.0 } else { 1.5 };
-        let worst = worst(&rows);
+        // The greatest of other rays than those of the table may be greater by chance.
+        let known = |row: &&Row<F>| row.setting.seed == row.family.facts().setting.seed;
+        let tail = if rays <= 1_000_000 && rows.iter().all(known) { 1.0 } else { 2.0 };
+        let worst = worst_by(Tally::t_p99_at_least, &rows);
         let pairs = worst.to_array().into_iter().zip(ceiling.worst.to_array());
         let what = ["leaks", "false misses", "false hits", "99 % of t", "band"];
         for (i, (now, most)) in pairs.enumerate() {
             let most = match i {
                 0..=2 => with_luck(most * slack, rays),
-                3 => most * slack * if rays < 1_000_000 { 1.25 } else { 1.0 },
-                _ => most * slack,
+                3 => most * slack,
+                _ => most * slack * tail,
             };
             if now > most {
                 let what = what[i];

@@ -1,5 +1,6 @@
 //! What is counted of a kernel's answers.
 
+use crate::BATCH;
 use rt_kernels::Hit;
 use rt_kernels::reference::triangle::{Place, Verdict};
 use rt_kernels::reference::ulps;
@@ -72,6 +73,13 @@ impl Tally {
     /// What 99 % of the errors of `t` are no greater than; 0 if there are too few of them to tell.
     pub fn t_p99(&self) -> f64 {
         if self.t_ulp.count() < 1_000 { 0.0 } else { self.t_ulp.at(0.99) }
+    }
+
+    /// The same, as far as so few rays can tell it of all: what a share of the errors exceeds that is
+    /// by four standard deviations more than 1 %, if the rays of a batch stand and fall together.
+    pub(crate) fn t_p99_at_least(&self) -> f64 {
+        let deviation = (0.01 * 0.99 * BATCH as f64 / self.t_ulp.count().max(1) as f64).sqrt();
+        self.t_p99().min(self.t_ulp.at((0.99 - 4.0 * deviation).max(0.0)))
     }
 
     /// Adds the counts of other rays.

@@ -32,10 +32,11 @@ pub struct Verdict {
     /// the surface, both ends included. A ray that runs along a straight line of the surface does
     /// not meet it.
     pub meeting: Meeting,
-    /// How far the ray is from where the answer would be another: the line from touching the
-    /// surface, a meeting from the ray's or the surface's end. In units of 2^-24 of the greatest
-    /// coordinate of the origin and of the point that is nearest to the centre, seen from there;
-    /// roughly. Not negative.
+    /// How far the ray would have to be moved for the answer to be another: until the line touches
+    /// the surface, or a meeting comes to the ray's or the surface's end. In units of 2^-24 of the
+    /// greatest coordinate, seen from the centre, of the origin and of the point that is nearest to the
+    /// centre; of a truncated cone seen from its base, and its own size counts too. Roughly, by what the
+    /// slopes there say. Not negative.
     pub band: f64,
 }
 
@@ -90,8 +91,9 @@ pub fn judge(ray: &Ray, surface: &Curved) -> Verdict {
     let origin = DVec3::from_array(scene.from_center.map(Ball::value));
     let midway = origin + ray.dir.as_dvec3() * t;
     let slope = 2.0 * (scene.matrix * midway - scene.linear).length();
-    let greatest = midway.abs().max(origin.abs()).max_element();
-    Verdict { meeting, band: (depth / slope).abs().min(ends) / (ROUNDOFF * greatest) }
+    let greatest = midway.abs().max(origin.abs()).max_element().max(scene.size);
+    let band = (depth / slope).abs().min(ends).min(scene.at_ends());
+    Verdict { meeting, band: band / (ROUNDOFF * greatest) }
 }
 
 /// A ray and a surface.
@@ -107,6 +109,8 @@ struct Scene<'a> {
     /// What points are measured along, and from where to where the surface goes.
     axis: [Ball; 3],
     range: [Ball; 2],
+    /// What counts as a coordinate beside those of the ray.
+    size: f64,
 }
 
 impl<'a> Scene<'a> {
@@ -133,6 +137,7 @@ impl<'a> Scene<'a> {
             dir,
             axis: vector(axis),
             range: range.map(Ball::new),
+            size: 0.0,
         })
     }
 
@@ -167,10 +172,12 @@ impl<'a> Scene<'a> {
             dir,
             axis,
             range: [Ball::new(0.0), square],
+            size: d.length().max(base_radius.max(apex_radius).into()),
         })
     }
 
-    /// The first of the roots that counts, and how far in space the nearest end is from any of them.
+    /// The first of the roots that counts, and how far the ray would have to be moved for any of them to
+    /// come to an end.
     fn first(&self, roots: &[Ball]) -> (Meeting, f64) {
         let ends = roots.iter().map(|&t| self.to_ends(t)).fold(f64::INFINITY, f64::min);
         for &t in roots {
@@ -206,14 +213,41 @@ impl<'a> Scene<'a> {
         dot(self.axis, [ox + x, oy + y, oz + z])
     }
 
-    /// How far the point at `t` is from the ray's first end, and from the surface's ends.
+    /// How far the ray would have to be moved for the root at `t` to come to the ray's first end, or
+    /// to an end of the surface.
     fn to_ends(&self, t: Ball) -> f64 {
-        let length = |v: [Ball; 3]| DVec3::from_array(v.map(Ball::value)).length();
+        let [dir, origin, axis] =
+            [self.dir, self.from_center, self.axis].map(|v| DVec3::from_array(v.map(Ball::value)));
+        // Where the ray is moved by w, the root moves by w − d (n · w) / (n · d).
+        let normal = self.matrix * (origin + dir * t.value()) - self.linear;
+        let speed = normal.dot(dir);
+        let start = (t.value() - f64::from(self.ray.tmin)).abs() * speed.abs() / normal.length();
+        let rate = axis - normal * (axis.dot(dir) / speed);
         let along = self.along(t).value();
-        let across = self.range.map(|end| (along - end.value()).abs() / length(self.axis));
-        let start = (t.value() - f64::from(self.ray.tmin)).abs() * length(self.dir);
+        let across = self.range.map(|end| (along - end.value()).abs() / rate.length());
         // A surface without ends has no axis: NaN, which is never the least.
         across.into_iter().fold(start, f64::min)
+    }
+
+    /// How far from the surface the ray is where it starts, and where it passes the surface's ends. It
+    /// may come there along the surface.
+    fn at_ends(&self) -> f64 {
+        let [a, b, c] = self.equation;
+        let [dir, origin] =
+            [self.dir, self.from_center].map(|v| DVec3::from_array(v.map(Ball::value)));
+        let off = |t: Ball| {
+            let depth = ((a * t + b + b) * t + c).value();
+            let slope = 2.0 * (self.matrix * (origin + dir * t.value()) - self.linear).length();
+            (depth / slope).abs()
+        };
+        let start = Ball::new(self.ray.tmin);
+        let [least, greatest] = self.range.map(Ball::value);
+        let along = self.along(start).value();
+        let at_start = (least..=greatest).contains(&along).then(|| off(start));
+        let speed = dot(self.axis, self.dir);
+        let passes = self.range.map(|end| (end - dot(self.axis, self.from_center)) / speed);
+        let passes = passes.into_iter().filter(|t| t.value() >= start.value()).map(off);
+        passes.chain(at_start).fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -304,6 +338,28 @@ mod tests {
         assert_eq!(past.meeting, Meeting::Nowhere);
         let off = past.band * ROUNDOFF * 5.0 * 1024.0;
         assert!((1.0..2.0).contains(&off), "{off}");
+    }
+
+    #[test]
+    fn the_band_at_a_rim_is_the_distance_of_the_line() {
+        let cylinder = Curved::Cone(Cone {
+            base: Vec3::ZERO,
+            base_radius: 1.0,
+            apex: Vec3::new(0.0, 0.0, 4.0),
+            apex_radius: 1.0,
+        });
+        let past = 1.0 / 1024.0;
+        for (origin, dir, distance) in [
+            ([5.0, 0.0, 4.0 + past], [-1.0, 0.0, 0.0], past),
+            ([5.0, 0.0, 8.0 + past], [-1.0, 0.0, -1.0], past * 0.5f32.sqrt()),
+            // Along the mantle.
+            ([1.0 + past, 0.0, 8.0], [0.0, 0.0, -1.0], past),
+        ] {
+            let band = judge(&ray(origin, dir), &cylinder).band;
+            let greatest = origin.into_iter().fold(4.0, f32::max);
+            let want = f64::from(distance / greatest) / ROUNDOFF;
+            assert!((band / want - 1.0).abs() < 0.01, "{origin:?}: {band}, not {want}");
+        }
     }
 
     #[test]
