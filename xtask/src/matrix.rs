@@ -54,7 +54,7 @@ pub(crate) static TARGETS: &[Target] = &[
     target("s390x",         S390X,       qemu("s390x", "max"),               These(&["scalar"]),                          Brief,       None,              Linux,         OnDemand),
     // What no CPU shows: undefined behaviour.
     target("miri",          MIRI_X86_64, Miri,                               These(&["scalar", "sse2"]),                  Conformance, None,              Any,           OnDemand),
-    target("miri-avx2",     MIRI_AVX2,   Miri,                               These(&["scalar", "sse2", "sse4.1", "avx2"]), Conformance, None,              Any,           OnDemand),
+    target("miri-avx2",     MIRI_AVX2,   Miri,                               These(&["scalar", "avx2"]),                  Conformance, None,              Any,           OnDemand),
     target("miri-s390x",    MIRI_S390X,  Miri,                               These(&["scalar"]),                          Conformance, None,              Any,           OnDemand),
 ];
 
