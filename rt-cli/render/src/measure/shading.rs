@@ -84,8 +84,9 @@ fn point(i: usize) -> (Surface, Finish) {
     (Surface { point, leave: position, enter: position }, finish)
 }
 
-/// About that many triangles of hills, matt, with a picture of many small pixels on them, and lit.
-pub fn textured_terrain(triangles: usize) -> Scene {
+/// About that many triangles of hills, matt and lit, with a picture of 1024×1024 pixels on them, so many
+/// times along each side.
+pub fn textured_terrain(triangles: usize, repeats: u32) -> Scene {
     /// Pixels along a side.
     const SIDE: u32 = 1024;
     let mut scene = terrain(triangles);
@@ -95,7 +96,9 @@ pub fn textured_terrain(triangles: usize) -> Scene {
         [150 + tile, 120 + (x % 64) as u8, 80 + (y % 64) as u8]
     });
     scene.textures = vec![Arc::new(Texture::new(SIDE, pixels.collect()))];
-    let map = ColorMap { texture: 0, scale: Vec2::splat(4.0), offset: Vec2::ZERO };
+    // The hills go from −1 to 1.
+    let scale = Vec2::splat(repeats as f32 / 2.0);
+    let map = ColorMap { texture: 0, scale, offset: Vec2::ZERO };
     scene.materials = vec![Material { diffuse_map: Some(map), ..Material::default() }];
     scene.mesh.uvs = scene.mesh.positions.iter().map(|at| Vec2::new(at.x, at.z)).collect();
     for triangle in &mut scene.mesh.triangles {
