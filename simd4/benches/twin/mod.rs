@@ -1,6 +1,7 @@
 //! The same functions by hand: what somebody writes who knows one level's intrinsics and has only
 //! that level. They keep the same contract, NaNs, saturation and order of additions, in loops of
-//! the same shape. One file a level; a new level is a file and a line in [`of`].
+//! the same shape. One file a level; a new level is a file and a line in [`of`]. What two
+//! levels share of their registers has one too.
 
 use crate::io::Io;
 
@@ -10,6 +11,8 @@ mod avx2;
 mod sse2;
 #[cfg(target_arch = "x86_64")]
 mod sse41;
+#[cfg(target_arch = "x86_64")]
+mod xmm;
 
 /// To be called where the CPU has the level.
 pub(crate) type Twin = unsafe fn(&mut Io);

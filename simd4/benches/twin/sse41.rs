@@ -2,7 +2,7 @@
 
 use core::arch::x86_64::*;
 
-use super::sse2::*;
+use super::xmm::*;
 use super::{Twin, twins};
 use crate::io::{Io, N};
 use crate::kernels::{BOXES, DIRECTION, INVERSE, ORIGIN, TRIANGLES};
