@@ -88,9 +88,9 @@ pub fn judge(ray: &Ray, surface: &Curved) -> Verdict {
     // the form's slope there.
     let (a, b, c) = (a.value(), b.value(), c.value());
     let (t, depth) = if a == 0.0 { (0.0, c) } else { (-b / a, discriminant.value() / a) };
-    let origin = DVec3::from_array(scene.from_center.map(Ball::value));
+    let origin = values(scene.from_center);
     let midway = origin + ray.dir.as_dvec3() * t;
-    let slope = 2.0 * (scene.matrix * midway - scene.linear).length();
+    let slope = 2.0 * scene.normal(t).length();
     let greatest = midway.abs().max(origin.abs()).max_element().max(scene.size);
     let band = (depth / slope).abs().min(ends).min(scene.at_ends());
     Verdict { meeting, band: band / (ROUNDOFF * greatest) }
@@ -161,7 +161,7 @@ impl<'a> Scene<'a> {
             dot(from_base, dir) - along * speed / square - there * change,
             dot(from_base, from_base) - along * along / square - there * there,
         ];
-        let d = DVec3::from_array(axis.map(Ball::value));
+        let d = values(axis);
         let (outer, widening) = (DMat3::from_cols(d * d.x, d * d.y, d * d.z), widening.value());
         finite.then(|| Scene {
             ray,
@@ -213,13 +213,16 @@ impl<'a> Scene<'a> {
         dot(self.axis, [ox + x, oy + y, oz + z])
     }
 
+    /// Half the slope of the form at a point of the line.
+    fn normal(&self, t: f64) -> DVec3 {
+        self.matrix * (values(self.from_center) + values(self.dir) * t) - self.linear
+    }
+
     /// How far the ray would have to be moved for the root at `t` to come to the ray's first end, or
     /// to an end of the surface.
     fn to_ends(&self, t: Ball) -> f64 {
-        let [dir, origin, axis] =
-            [self.dir, self.from_center, self.axis].map(|v| DVec3::from_array(v.map(Ball::value)));
+        let (dir, axis, normal) = (values(self.dir), values(self.axis), self.normal(t.value()));
         // Where the ray is moved by w, the root moves by w − d (n · w) / (n · d).
-        let normal = self.matrix * (origin + dir * t.value()) - self.linear;
         let speed = normal.dot(dir);
         let start = (t.value() - f64::from(self.ray.tmin)).abs() * speed.abs() / normal.length();
         let rate = axis - normal * (axis.dot(dir) / speed);
@@ -233,12 +236,9 @@ impl<'a> Scene<'a> {
     /// may come there along the surface.
     fn at_ends(&self) -> f64 {
         let [a, b, c] = self.equation;
-        let [dir, origin] =
-            [self.dir, self.from_center].map(|v| DVec3::from_array(v.map(Ball::value)));
         let off = |t: Ball| {
             let depth = ((a * t + b + b) * t + c).value();
-            let slope = 2.0 * (self.matrix * (origin + dir * t.value()) - self.linear).length();
-            (depth / slope).abs()
+            (depth / (2.0 * self.normal(t.value()).length())).abs()
         };
         let start = Ball::new(self.ray.tmin);
         let [least, greatest] = self.range.map(Ball::value);
@@ -256,6 +256,10 @@ const PRECISE: f64 = 1.0 / (1u64 << 40) as f64;
 
 fn vector(v: Vec3) -> [Ball; 3] {
     v.to_array().map(Ball::new)
+}
+
+fn values(v: [Ball; 3]) -> DVec3 {
+    DVec3::from_array(v.map(Ball::value))
 }
 
 fn minus([ax, ay, az]: [Ball; 3], [bx, by, bz]: [Ball; 3]) -> [Ball; 3] {
