@@ -233,7 +233,7 @@ impl PrecisionArgs {
 
 /// Write a procedural scene to a file.
 ///
-/// The extension of the file tells the format: .nff, or .obj for scenes of polygons alone, which
+/// The extension of the file tells the format: .nff, .aff, or .obj for scenes of polygons alone, which
 /// --tessellate makes of any; beside the OBJ go its materials, as .mtl. Without a file, NFF goes to
 /// standard output.
 #[derive(Group)]
@@ -249,7 +249,7 @@ pub(crate) struct GenArgs {
     pub(crate) size: Option<u32>,
     #[command(flatten)]
     pub(crate) tessellate: TessellateArgs,
-    /// The .nff or .obj file to write; - for standard output [default: -].
+    /// The .nff, .obj or .aff file to write; - for standard output [default: -].
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }

@@ -187,6 +187,12 @@ impl Default for Material {
     }
 }
 
+/// How many materials are no longer the same, but for their names, when a format has held them.
+pub(crate) fn changed(materials: &[Material], held: impl Fn(&Material) -> Material) -> usize {
+    let same = |old: &&Material| Material { name: old.name.clone(), ..held(old) } == **old;
+    materials.len() - materials.iter().filter(same).count()
+}
+
 /// How a picture lies on a surface: repeated without end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColorMap {

@@ -10,7 +10,7 @@ use super::{OpenArgs, SCENE};
 
 /// Write a scene in another format.
 ///
-/// The extension of the file tells which: .nff, or .obj for scenes of polygons alone, which
+/// The extension of the file tells which: .nff, .aff, or .obj for scenes of polygons alone, which
 /// --tessellate makes of any; beside the OBJ go its materials, as .mtl. What the format cannot hold
 /// is told.
 #[derive(Group)]
@@ -23,7 +23,7 @@ pub(crate) struct ConvertArgs {
     pub(crate) scene: OsString,
     #[command(flatten)]
     pub(crate) opening: OpenArgs,
-    /// The .nff or .obj file to write; - for NFF on standard output.
+    /// The .nff, .obj or .aff file to write; - for NFF on standard output.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Say nothing but errors.

@@ -15,7 +15,9 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Error> {
     }
     output.write(&scene)?;
     if !args.quiet {
-        lost.iter().for_each(|lost| ui::say(&format!("warning: {lost}")));
+        if let Some(lost) = lost {
+            ui::say(&format!("warning: {lost}"));
+        }
         if let Some(name) = name {
             ui::say(&format!("{name}: {}", report::contents(&scene)));
         }

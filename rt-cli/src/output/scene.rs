@@ -11,33 +11,42 @@ use crate::error::Error;
 pub(crate) struct SceneOutput {
     path: PathBuf,
     output: Output,
-    /// The name of the library, and its place.
-    library: Option<(String, Output)>,
+    format: Format,
+}
+
+enum Format {
+    Nff,
+    Aff,
+    /// With the name of the library, and its place.
+    Obj(String, Output),
 }
 
 impl SceneOutput {
     /// Makes sure that it can be written. The extension tells the format; without one it is NFF.
     pub(crate) fn open(path: &Path) -> Result<SceneOutput, Error> {
-        let format = format(path, &["nff", "obj"])?;
+        let format = format(path, &["nff", "obj", "aff"])?;
         let output = Output::open(path)?;
-        let library = match format {
+        let format = match format {
             "obj" => {
                 let beside = path.with_extension("mtl");
                 let name = beside.file_name().and_then(|name| name.to_str()).ok_or_else(|| {
                     Error::Usage(format!("{}: an OBJ needs a name in UTF-8", path.display()))
                 })?;
-                Some((name.to_owned(), Output::open(&beside)?))
+                Format::Obj(name.to_owned(), Output::open(&beside)?)
             }
-            _ => None,
+            "aff" => Format::Aff,
+            _ => Format::Nff,
         };
-        Ok(SceneOutput { path: path.to_owned(), output, library })
+        Ok(SceneOutput { path: path.to_owned(), output, format })
     }
 
     /// Writes all of it.
     pub(crate) fn write(self, scene: &Scene) -> Result<(), Error> {
         let mut text = Vec::new();
-        match self.library {
-            Some((name, library)) => {
+        match self.format {
+            Format::Nff => rt_scene::nff::write(scene, &mut text)?,
+            Format::Aff => rt_scene::aff::write(scene, &mut text)?,
+            Format::Obj(name, library) => {
                 rt_scene::obj::write(scene, Some(&name), &mut text)?;
                 let (mut pictures, mut names) = (Vec::new(), Vec::new());
                 for (number, texture) in scene.textures.iter().enumerate() {
@@ -53,7 +62,6 @@ impl SceneOutput {
                 }
                 library.write(&materials)?;
             }
-            None => rt_scene::nff::write(scene, &mut text)?,
         }
         self.output.write(&text)
     }
@@ -64,10 +72,11 @@ impl SceneOutput {
     }
 
     /// What a scene has and the format has no place for.
-    pub(crate) fn lost(&self, scene: &Scene) -> Vec<String> {
-        match self.library {
-            Some(_) => lost_in_obj(scene).into_iter().collect(),
-            None => lost_in_nff(scene).into_iter().collect(),
+    pub(crate) fn lost(&self, scene: &Scene) -> Option<String> {
+        match self.format {
+            Format::Nff => lost_materials("NFF", rt_scene::nff::poorer(scene)),
+            Format::Aff => lost_materials("AFF", rt_scene::aff::poorer(scene)),
+            Format::Obj(..) => lost_in_obj(scene),
         }
     }
 }
@@ -86,8 +95,7 @@ fn lost_in_obj(scene: &Scene) -> Option<String> {
     (!lost.is_empty()).then(|| format!("an OBJ has no place for {}", lost.join(" and ")))
 }
 
-fn lost_in_nff(scene: &Scene) -> Option<String> {
-    let poorer = rt_scene::nff::poorer(scene);
+fn lost_materials(format: &str, poorer: usize) -> Option<String> {
     let many = crate::report::count(poorer, "material");
-    (poorer > 0).then(|| format!("an NFF says less of materials: {many} will look different"))
+    (poorer > 0).then(|| format!("an {format} says less of materials: {many} will look different"))
 }

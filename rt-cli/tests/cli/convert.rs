@@ -27,9 +27,11 @@ fn a_converted_scene_looks_the_same() {
     assert_eq!(run.stderr, "a.nff: 7 triangles, 3 materials\n");
     let run = scratch.rt(&["convert", "a.nff", "-o", "b.obj"]).exits(0);
     assert_eq!(run.stderr, "b.obj: 7 triangles, 3 materials\n");
-    assert_eq!(scratch.names(), ["a.nff", "b.mtl", "b.obj", "room.mtl", "room.obj"]);
+    let run = scratch.rt(&["convert", "b.obj", "-o", "c.aff"]).exits(0);
+    assert_eq!(run.stderr, "c.aff: 7 triangles, 3 materials\n");
+    assert_eq!(scratch.names(), ["a.nff", "b.mtl", "b.obj", "c.aff", "room.mtl", "room.obj"]);
     let want = pixels(&scratch, "room.obj", &LOOK);
-    for scene in ["a.nff", "b.obj"] {
+    for scene in ["a.nff", "b.obj", "c.aff"] {
         assert!(pixels(&scratch, scene, &LOOK) == want, "{scene}");
     }
     let geometry = [&LOOK[..], &["--integrator", "normals"]].concat();
@@ -57,17 +59,21 @@ fn textures_go_with_their_scene() {
 }
 
 #[test]
-fn nff_holds_all_of_an_nff() {
+fn nff_and_aff_hold_all_of_an_nff() {
     let scratch = Scratch::new();
-    for scene in ["spd:balls:1", "spd:mount:2", "spd:rings:1", "spd:tree:2"] {
-        scratch.rt(&["convert", scene, "-o", "a.nff", "-q"]).exits(0);
-        assert!(
-            pixels(&scratch, "a.nff", &["-s", "40x40"])
-                == pixels(&scratch, scene, &["-s", "40x40"])
-        );
-        let again = scratch.rt(&["convert", "a.nff", "-q", "-o", "-"]).exits(0);
-        assert!(again.stdout == scratch.bytes("a.nff"), "{scene}: written again it is the same");
-        assert!(again.stderr.is_empty(), "{}", again.stderr);
+    for scene in ["spd:balls:1", "spd:mount:2", "spd:rings:1", "spd:tree:2", "spd:teapot:2"] {
+        let want = pixels(&scratch, scene, &["-s", "40x40"]);
+        for file in ["a.nff", "a.aff"] {
+            let run = scratch.rt(&["convert", scene, "-o", file]).exits(0);
+            assert!(!run.stderr.contains("warning"), "{}", run.stderr);
+            assert!(pixels(&scratch, file, &["-s", "40x40"]) == want, "{scene} as {file}");
+            let again = format!("b.{}", &file[2..]);
+            let run = scratch.rt(&["convert", file, "-q", "-o", &again]).exits(0);
+            assert!(scratch.bytes(&again) == scratch.bytes(file), "{scene}: {file}, once more");
+            assert!(run.stderr.is_empty(), "{}", run.stderr);
+        }
+        let piped = scratch.rt(&["convert", "a.nff", "-q", "-o", "-"]).exits(0);
+        assert!(piped.stdout == scratch.bytes("a.nff"), "{scene}: the same on standard output");
     }
 }
 
@@ -104,6 +110,12 @@ fn what_a_format_cannot_hold_is_told() {
     let run = scratch.rt(&["convert", "lamp.obj", "-o", "lamp.nff"]).exits(0);
     let poorer = "warning: an NFF says less of materials: 1 material will look different\n";
     assert!(run.stderr.starts_with(poorer), "{}", run.stderr);
+    // Highlights of a colour are more than an NFF can say, but not more than an AFF can.
+    scratch.file("lamp.mtl", "newmtl lamp\nKd 0 0 0\nKs 1 0.5 0\nillum 3\n");
+    let run = scratch.rt(&["convert", "lamp.obj", "-o", "lamp.nff"]).exits(0);
+    assert!(run.stderr.starts_with(poorer), "{}", run.stderr);
+    let run = scratch.rt(&["convert", "lamp.obj", "-o", "lamp.aff"]).exits(0);
+    assert_eq!(run.stderr, "lamp.aff: 1 triangle, 1 material\n");
     let quiet = scratch.rt(&["convert", "lamp.obj", "-o", "lamp.nff", "-q"]).exits(0);
     assert!(quiet.stderr.is_empty());
 }
@@ -123,7 +135,7 @@ fn nothing_is_written_of_what_fails() {
         (
             &["room.obj", "-o", "a.ply"],
             1,
-            "error: cannot write a.ply: give it the extension .nff or .obj",
+            "error: cannot write a.ply: give it the extension .nff, .obj or .aff",
         ),
         (&["room.obj", "-o", "no/a.obj"], 1, "error: cannot write no/a.obj: there is no folder no"),
         (&["no.obj", "-o", "a.obj"], 1, "error: cannot read no.obj: No such file"),

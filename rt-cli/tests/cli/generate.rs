@@ -29,7 +29,7 @@ fn the_extension_tells_the_format_and_without_one_it_is_nff() {
         assert_eq!(scratch.bytes(name), text, "{name}");
     }
     let run = scratch.rt(&["gen", "balls", "-o", "a.txt"]).exits(1);
-    assert_eq!(run.stderr, "error: cannot write a.txt: give it the extension .nff or .obj\n");
+    assert_eq!(run.stderr, "error: cannot write a.txt: give it the extension .nff, .obj or .aff\n");
 }
 
 /// The same triangles in the same order, with the same normals; materials differ in what OBJ holds.

@@ -12,6 +12,8 @@ mod lexer;
 mod object;
 mod place;
 mod read;
+mod surface;
+mod write;
 
 use std::io;
 use std::path::Path;
@@ -21,6 +23,8 @@ use crate::model::Scene;
 use crate::text::read_file;
 
 pub use read::parse;
+pub use surface::poorer;
+pub use write::write;
 
 /// Gives the bytes of an included file by the name that a file states.
 pub type Loader<'a> = dyn FnMut(&str) -> io::Result<Vec<u8>> + 'a;

@@ -5,7 +5,8 @@ use glam::Vec3;
 use super::file::{Checked, File};
 use super::keys::{Keys, MovingTriangle};
 use super::read::Reader;
-use crate::model::{Cone, Light, Material, Sphere, Triangle, View};
+use super::surface::material;
+use crate::model::{Cone, Light, Sphere, Triangle, View};
 use crate::text::{Word, decode};
 
 impl Reader<'_, '_> {
@@ -56,20 +57,8 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// Ambient, diffuse and specular colour, shine, transmittance, index of refraction.
     pub(super) fn surface(&mut self, file: &mut File<'_>) -> Checked {
-        let numbers: [f32; 12] = file.numbers("fm")?;
-        let [_, _, _, r, g, b, sr, sg, sb, shininess, clear, ior] = numbers;
-        let specular = Vec3::new(sr, sg, sb);
-        let material = Material {
-            diffuse: Vec3::new(r, g, b),
-            specular,
-            shininess,
-            mirror: specular.max(Vec3::ZERO),
-            transmission: Vec3::splat(clear.max(0.0)),
-            ior: if ior > 0.0 { ior } else { 1.0 },
-            ..Material::default()
-        };
+        let material = material(file.numbers("fm")?);
         // Included files state the same over and over.
         let materials = &mut self.scene.materials;
         let known = materials.iter().rev().take(64).position(|known| *known == material);

@@ -53,13 +53,16 @@ pub(super) fn place(
             continue;
         };
         let matrix = to_world.matrix3;
-        for position in &mut scene.mesh.positions[range(0)] {
-            *position = to_world.transform_point3(position.as_dvec3()).as_vec3();
-        }
-        let of_normals = cofactors(matrix);
-        for normal in &mut scene.mesh.normals[range(1)] {
-            // Any length will do, but it has to be a number.
-            *normal = (of_normals * normal.as_dvec3()).normalize_or_zero().as_vec3();
+        // What stands in no transformation keeps its bits.
+        if to_world != DAffine3::IDENTITY {
+            for position in &mut scene.mesh.positions[range(0)] {
+                *position = to_world.transform_point3(position.as_dvec3()).as_vec3();
+            }
+            let of_normals = cofactors(matrix);
+            for normal in &mut scene.mesh.normals[range(1)] {
+                // Any length will do, but it has to be a number.
+                *normal = (of_normals * normal.as_dvec3()).normalize_or_zero().as_vec3();
+            }
         }
         let mirrors = matrix.determinant() < 0.0;
         scene.mesh.triangles.extend(triangles[range(2)].iter().map(|triangle| match mirrors {

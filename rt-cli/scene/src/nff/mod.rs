@@ -19,8 +19,10 @@ use crate::model::Scene;
 use crate::text::read_file;
 
 pub use read::parse;
-pub(crate) use surface::{Surface, Surfaces};
-pub use write::{poorer, write};
+pub use surface::poorer;
+pub(crate) use surface::{Surface, Surfaces, grey};
+pub use write::write;
+pub(crate) use write::{write_background, write_cone, write_sphere, write_view};
 
 /// Reads an NFF file.
 pub fn read(path: &Path) -> Result<Scene, Error> {

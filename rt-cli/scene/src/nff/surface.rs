@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::Vec3;
 
-use crate::model::Material;
+use crate::model::{Material, Scene};
 
 /// The numbers of `f`: red, green, blue, Kd, Ks, shine, transmittance, index of refraction.
 pub(crate) type Surface = [f32; 8];
@@ -35,4 +35,34 @@ fn material([r, g, b, kd, ks, shine, transmittance, ior]: Surface) -> Material {
         ior: if ior > 0.0 { ior } else { 1.0 },
         ..Material::default()
     }
+}
+
+/// What stands for a material.
+pub(super) fn surface(material: &Material) -> Surface {
+    let (Vec3 { x: r, y: g, z: b }, kd) = split_diffuse(material.diffuse);
+    let mirrors = material.mirror != Vec3::ZERO;
+    let reflected = if mirrors { material.mirror } else { material.specular };
+    let (ks, transmittance) = (grey(reflected), grey(material.transmission));
+    [r, g, b, kd, ks, material.shininess, transmittance, material.ior]
+}
+
+/// How many materials of a scene are others when they have been written and read back.
+pub fn poorer(scene: &Scene) -> usize {
+    crate::model::changed(&scene.materials, |old| material(surface(old)))
+}
+
+/// A colour whose greatest component is one, and Kd, if their product has the same bits; the colour
+/// in few digits, if that can be.
+fn split_diffuse(diffuse: Vec3) -> (Vec3, f32) {
+    const DIGITS: f32 = 1e5;
+    let kd = diffuse.max_element();
+    let color = diffuse / kd;
+    let short = (color * DIGITS).round() / DIGITS;
+    let good = [short, color].into_iter().find(|&color| color * kd == diffuse);
+    good.map_or((diffuse, 1.0), |color| (color, kd))
+}
+
+/// The one strength that stands for a colour.
+pub(crate) fn grey(color: Vec3) -> f32 {
+    if color == Vec3::splat(color.x) { color.x } else { color.element_sum() / 3.0 }
 }

@@ -4,8 +4,9 @@ use std::io::{self, Write};
 
 use glam::Vec3;
 
+use super::surface::surface;
 use crate::diag::Error;
-use crate::model::{Light, Material, Mesh, Scene, Triangle, View};
+use crate::model::{Cone, Light, Mesh, Scene, Sphere, Triangle};
 use crate::spd::white_light;
 use crate::triangulate::Triangulator;
 
@@ -16,27 +17,9 @@ const HITHER: f32 = 0.01;
 /// quadrilateral would give are written as one.
 ///
 /// The format has one grey strength for highlights and mirror reflections, one for what goes through,
-/// and no emission: what a material has beyond that is lost.
+/// and no emission: what a material has beyond that is lost ([`poorer`](super::poorer)).
 pub fn write(scene: &Scene, out: &mut impl Write) -> Result<(), Error> {
     Writer { out, triangulator: Triangulator::default() }.scene(scene).map_err(Error::Write)
-}
-
-/// How many materials of a scene [`write()`] makes poorer: those whose highlights, reflections or
-/// transmission are coloured or differ in strength, and those that give off light.
-pub fn poorer(scene: &Scene) -> usize {
-    let is_grey = |color: Vec3| color == Vec3::splat(color.x);
-    let holds = |material: &&Material| {
-        material.emission == Vec3::ZERO
-            && is_grey(material.specular)
-            && is_grey(material.transmission)
-            && material.mirror == material.specular
-    };
-    scene.materials.len() - scene.materials.iter().filter(holds).count()
-}
-
-/// What stands for both highlights and reflections.
-fn reflected(material: &Material) -> Vec3 {
-    if material.mirror == Vec3::ZERO { material.specular } else { material.mirror }
 }
 
 struct Writer<'a, W> {
@@ -46,12 +29,8 @@ struct Writer<'a, W> {
 
 impl<W: Write> Writer<'_, W> {
     fn scene(&mut self, scene: &Scene) -> io::Result<()> {
-        if let Some(Vec3 { x, y, z }) = scene.background {
-            writeln!(self.out, "b {x} {y} {z}")?;
-        }
-        if let Some(view) = &scene.view {
-            self.view(view)?;
-        }
+        write_background(scene, self.out)?;
+        write_view(scene, self.out)?;
         self.lights(&scene.lights)?;
         let mut material = None;
         let mut triangles = scene.mesh.triangles.as_slice();
@@ -64,30 +43,13 @@ impl<W: Write> Writer<'_, W> {
         }
         for sphere in &scene.spheres {
             self.change_surface(scene, &mut material, sphere.material)?;
-            let Vec3 { x, y, z } = sphere.center;
-            writeln!(self.out, "s {x} {y} {z} {}", sphere.radius)?;
+            write_sphere(sphere, self.out)?;
         }
         for cone in &scene.cones {
             self.change_surface(scene, &mut material, cone.material)?;
-            let (Vec3 { x, y, z }, Vec3 { x: ax, y: ay, z: az }) = (cone.base, cone.apex);
-            let (radius, a_radius) = (cone.base_radius, cone.apex_radius);
-            writeln!(self.out, "c {x} {y} {z} {radius} {ax} {ay} {az} {a_radius}")?;
+            write_cone(cone, self.out)?;
         }
         Ok(())
-    }
-
-    fn view(&mut self, view: &View) -> io::Result<()> {
-        writeln!(self.out, "v")?;
-        for (keyword, Vec3 { x, y, z }) in
-            [("from", view.eye), ("at", view.target), ("up", view.up)]
-        {
-            writeln!(self.out, "{keyword} {x} {y} {z}")?;
-        }
-        writeln!(self.out, "angle {}\nhither {HITHER}", view.fov_y)?;
-        match view.size {
-            Some((width, height)) => writeln!(self.out, "resolution {width} {height}"),
-            None => Ok(()),
-        }
     }
 
     /// Colours are left out where a reader would put the same.
@@ -112,11 +74,11 @@ impl<W: Write> Writer<'_, W> {
             return Ok(());
         }
         *current = Some(wanted);
-        let material = &scene.materials[wanted as usize];
-        let (Vec3 { x: r, y: g, z: b }, kd) = split_diffuse(material.diffuse);
-        let (ks, transmittance) = (grey(reflected(material)), grey(material.transmission));
-        let (shine, ior) = (material.shininess, material.ior);
-        writeln!(self.out, "f {r} {g} {b} {kd} {ks} {shine} {transmittance} {ior}")
+        write!(self.out, "f")?;
+        for number in surface(&scene.materials[wanted as usize]) {
+            write!(self.out, " {number}")?;
+        }
+        writeln!(self.out)
     }
 
     /// The corners of the quadrilateral whose triangles come next, if they do.
@@ -154,18 +116,37 @@ impl<W: Write> Writer<'_, W> {
     }
 }
 
-/// A colour whose greatest component is one, and Kd, if their product has the same bits; the colour
-/// in few digits, if that can be.
-fn split_diffuse(diffuse: Vec3) -> (Vec3, f32) {
-    const DIGITS: f32 = 1e5;
-    let kd = diffuse.max_element();
-    let color = diffuse / kd;
-    let short = (color * DIGITS).round() / DIGITS;
-    let good = [short, color].into_iter().find(|&color| color * kd == diffuse);
-    good.map_or((diffuse, 1.0), |color| (color, kd))
+/// The statement of the background, if there is one; AFF has the same.
+pub(crate) fn write_background(scene: &Scene, out: &mut impl Write) -> io::Result<()> {
+    match scene.background {
+        Some(Vec3 { x, y, z }) => writeln!(out, "b {x} {y} {z}"),
+        None => Ok(()),
+    }
 }
 
-/// The one strength that stands for a colour.
-fn grey(color: Vec3) -> f32 {
-    if color == Vec3::splat(color.x) { color.x } else { color.element_sum() / 3.0 }
+/// The statement of the view, if there is one; AFF has the same.
+pub(crate) fn write_view(scene: &Scene, out: &mut impl Write) -> io::Result<()> {
+    let Some(view) = &scene.view else { return Ok(()) };
+    writeln!(out, "v")?;
+    for (keyword, Vec3 { x, y, z }) in [("from", view.eye), ("at", view.target), ("up", view.up)] {
+        writeln!(out, "{keyword} {x} {y} {z}")?;
+    }
+    writeln!(out, "angle {}\nhither {HITHER}", view.fov_y)?;
+    match view.size {
+        Some((width, height)) => writeln!(out, "resolution {width} {height}"),
+        None => Ok(()),
+    }
+}
+
+/// A sphere's statement; AFF has the same.
+pub(crate) fn write_sphere(sphere: &Sphere, out: &mut impl Write) -> io::Result<()> {
+    let Vec3 { x, y, z } = sphere.center;
+    writeln!(out, "s {x} {y} {z} {}", sphere.radius)
+}
+
+/// A cone's statement; AFF has the same.
+pub(crate) fn write_cone(cone: &Cone, out: &mut impl Write) -> io::Result<()> {
+    let (Vec3 { x, y, z }, Vec3 { x: ax, y: ay, z: az }) = (cone.base, cone.apex);
+    let (radius, a_radius) = (cone.base_radius, cone.apex_radius);
+    writeln!(out, "c {x} {y} {z} {radius} {ax} {ay} {az} {a_radius}")
 }

@@ -336,3 +336,33 @@ fn inclusion_that_multiplies_is_refused_soon() {
     let found = headlines(aff_with("i 0 f0", &files));
     assert!(found[0].ends_with("more than 65536 files are included"), "{found:?}");
 }
+
+/// Triangles with normals and without, of several materials, one after the other.
+#[test]
+fn written_and_read_back() {
+    let text = "b 0.1 0.2 0.3\nv from 1 2 3 at 0 0 0 up 0 0 1 angle 45 hither 1 resolution 64 48\n\
+        l 4 5 6 1 1 0.5 l 1 1e-45 3\nfm 0 0 0 0.1 0.2 0.3 0.9 0.8 0.1 20 0.5 1.5\n\
+        m vertices 4 0 0 0 1 0 0 1 1 0 0 1 1e-40 normals 1 0 0 5 triangles 2\n\
+        0 1 2 0 0 0 0 2 3 0 0 0\np 4 0 0 1 1 0 1 1 1 1 0 1 1\nf 1 0 0 0.3 0.1 5 0 1\n\
+        p 3 0 0 2 1 0 2 0.1 1 2\npp 3 0 0 3 0 1 3 1 0 3 0 2 3 0 1 3 0 0 0.1\n\
+        s 0.1 0.2 0.3 0.4\nfm 0 0 0 0.1 0.2 0.3 0.9 0.8 0.1 20 0.5 1.5\nc 0 0 0 1 0 0 1 0.5\n";
+    let scene = aff(text);
+    let mut written = Vec::new();
+    rt_scene::aff::write(&scene, &mut written).unwrap();
+    let again = aff(std::str::from_utf8(&written).unwrap());
+    let corners = |scene: &Scene| {
+        let of = |t: &rt_scene::Triangle| {
+            let normals = t.normal.map(|n| n.map(|i| scene.mesh.normals[i as usize]));
+            (t.position.map(|i| scene.mesh.positions[i as usize]), normals, t.material)
+        };
+        scene.mesh.triangles.iter().map(of).collect::<Vec<_>>()
+    };
+    assert_eq!(corners(&again), corners(&scene));
+    assert_eq!(again.mesh.positions.len(), 4 + 4 + 3 + 3);
+    assert_eq!((&again.spheres, &again.cones), (&scene.spheres, &scene.cones));
+    assert_eq!(again.materials, scene.materials);
+    assert_eq!((again.view, again.background), (scene.view, scene.background));
+    assert_eq!(again.lights, scene.lights);
+    assert_eq!(rt_scene::aff::poorer(&scene), 0);
+    assert_eq!(again.facts.stated["mesh triangle"], 6);
+}
