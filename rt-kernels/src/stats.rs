@@ -91,7 +91,7 @@ mod tests {
         let ball = |i: u8| Sphere { center: Vec3::X * f32::from(i), radius: 0.4 };
         let scene = Primitives { spheres: (0..50).map(ball).collect(), ..Primitives::default() };
         let tree = Builder::default().build(&scene, Block::ONE, &Sequential);
-        let wide = Wide::<4>::new(&scene, tree);
+        let wide = Wide::<4>::new(&scene, tree, &Sequential);
         let rays: Rays =
             (0..500).map(|i| Ray::new(Vec3::new(i as f32 * 0.1, 0.1, 9.0), Vec3::NEG_Z)).collect();
         fn found<C: Counters>(wide: &Wide<4>, rays: &Rays, counters: &mut C) -> Vec<Option<u32>> {

@@ -87,8 +87,8 @@ impl Bvh {
         let tree = plan.builder.build(primitives, plan.layout.block(primitives), join);
         let array = match plan.layout {
             Layout::Skip => Array::Skip(SkipArray::new(primitives, tree, plan.method)),
-            Layout::Bvh4 => Array::Bvh4(Wide::new(primitives, tree)),
-            Layout::Bvh8 => Array::Bvh8(Wide::new(primitives, tree)),
+            Layout::Bvh4 => Array::Bvh4(Wide::new(primitives, tree, join)),
+            Layout::Bvh8 => Array::Bvh8(Wide::new(primitives, tree, join)),
         };
         Ok(Bvh { plan, array })
     }

@@ -2,8 +2,9 @@
 //! of bins.
 //!
 //! A level of the tree passes over its references twice: to fill the bins, and to partition in place,
-//! which also finds by what the next level bins. The tree does not depend on `join`: both halves of a
-//! split work on disjoint references.
+//! which also finds by what the next level bins. Both passes go over halves of many references at
+//! once. The tree does not depend on `join`: least and greatest coordinates do not depend on the
+//! order, and halves are disjoint.
 //!
 //! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007. Deviation: all
 //! three axes are binned.
@@ -18,6 +19,9 @@ use crate::primitives::Primitives;
 
 /// The most bins an axis.
 const BINS: usize = 16;
+
+/// The least number of references of which the halves may be passed over at once.
+const PARALLEL: usize = 1 << 15;
 
 /// The bins an axis for so many references. Among few, more borders find nothing much cheaper, and to
 /// look through the bins would take longer than to fill them.
@@ -55,12 +59,12 @@ fn subtree(
     join: &impl Join,
 ) -> Node {
     let split = if depth < SAH_DEPTH && block.tests(references.len()) > 1 {
-        best_split(references, &extent.centers, block)
+        best_split(references, &extent.centers, block, join)
     } else {
         None
     };
     let [left, right] = match split {
-        Some(split) if extent.side.pays(split.cost, block) => split.partition(references),
+        Some(split) if extent.side.pays(split.cost, block) => split.partition(references, join),
         _ if references.len() > MAX_SLOTS => halve(references, &extent.centers),
         _ => return extent.side.leaf(first),
     };
@@ -121,6 +125,25 @@ impl Binning {
         let [x, y, z, _] = self.along(reference).to_i32_fast().to_array();
         [x as usize, y as usize, z as usize]
     }
+
+    /// What is in each bin of each axis.
+    fn fill(&self, references: &[Reference], join: &impl Join) -> [[Side; BINS]; 3] {
+        if references.len() >= PARALLEL {
+            let (left, right) = references.split_at(references.len() / 2);
+            let (mut bins, more) = join.join(|| self.fill(left, join), || self.fill(right, join));
+            for (bin, more) in bins.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
+                bin.add(&more.bounds, more.count);
+            }
+            return bins;
+        }
+        let mut bins = [[Side::empty(); BINS]; 3];
+        for reference in references {
+            for (bins, place) in bins.iter_mut().zip(self.bins(reference)) {
+                bins[place].add(reference.bounds(), 1);
+            }
+        }
+        bins
+    }
 }
 
 /// A split between two bins.
@@ -140,19 +163,14 @@ pub(super) fn best_split(
     references: &[Reference],
     centers: &Bounds,
     block: Block,
+    join: &impl Join,
 ) -> Option<Split> {
     if references.len() < 2 {
         return None;
     }
     let used = bins_for(references.len());
     let binning = Binning::new(centers, used);
-    let mut bins = [[Side::empty(); BINS]; 3];
-    for reference in references {
-        for (bins, place) in bins.iter_mut().zip(binning.bins(reference)) {
-            bins[place].add(reference.bounds(), 1);
-        }
-    }
-
+    let bins = binning.fill(references, join);
     let mut best = None;
     let mut least = f32::INFINITY;
     for (axis, bins) in bins.iter().enumerate() {
@@ -183,11 +201,28 @@ pub(super) fn best_split(
 
 impl Split {
     /// Puts what goes left first. Where both sides are then.
-    pub(super) fn partition(&self, references: &mut [Reference]) -> [Extent; 2] {
+    pub(super) fn partition(&self, references: &mut [Reference], join: &impl Join) -> [Extent; 2] {
+        let (_, centers) = self.sort(references, join);
+        [0, 1].map(|i| Extent { side: self.sides[i], centers: centers[i] })
+    }
+
+    /// Puts what goes left first. How many those are, and the boxes around the centres of both sides.
+    fn sort(&self, references: &mut [Reference], join: &impl Join) -> (usize, [Bounds; 2]) {
+        let count = references.len();
+        if count >= PARALLEL {
+            let (first, second) = references.split_at_mut(count / 2);
+            let ((before, centers), (after, more)) =
+                join.join(|| self.sort(first, join), || self.sort(second, join));
+            // What goes right of the first half changes places with what goes left of the second.
+            let (wrong, right) = (&mut first[before..], &mut second[..after]);
+            let moved = wrong.len().min(after);
+            swap(&mut wrong[..moved], &mut right[after - moved..], join);
+            return (before + after, [0, 1].map(|i| centers[i].union(&more[i])));
+        }
         let border = f32x4::from(self.border as f32);
         let mut centers = [Bounds::empty(); 2];
         let mut middle = 0;
-        for next in 0..references.len() {
+        for next in 0..count {
             let reference = references[next];
             let left = self.binning.along(&reference).lt(border).bitmask() >> self.axis & 1;
             let side = &mut centers[1 - left as usize];
@@ -197,8 +232,18 @@ impl Split {
             references.swap(next, middle);
             middle += left as usize;
         }
-        [0, 1].map(|i| Extent { side: self.sides[i], centers: centers[i] })
+        (middle, centers)
     }
+}
+
+/// Swaps as many references for as many.
+fn swap(a: &mut [Reference], b: &mut [Reference], join: &impl Join) {
+    if a.len() < PARALLEL {
+        return a.swap_with_slice(b);
+    }
+    let middle = a.len() / 2;
+    let ((a, more_a), (b, more_b)) = (a.split_at_mut(middle), b.split_at_mut(middle));
+    join.join(|| swap(a, b, join), || swap(more_a, more_b, join));
 }
 
 /// Splits by count, along the axis on which the centres spread most.

@@ -95,7 +95,7 @@ impl<'a> Room<'a> {
         let (Extent { side: whole, centers }, block) = (self.extent, self.block);
         let (all, spare) = self.references.split_at_mut(whole.count);
         let split = if depth < SAH_DEPTH && block.tests(whole.count) > 1 {
-            binned_sah::best_split(all, &centers, block)
+            binned_sah::best_split(all, &centers, block, join)
         } else {
             None
         };
@@ -108,7 +108,7 @@ impl<'a> Room<'a> {
         let (left, right) = match (cut, split) {
             (Some(sides), _) => self.share_out(&sides),
             (None, Some(split)) if whole.pays(split.cost, block) => {
-                let extents = split.partition(all);
+                let extents = split.partition(all, join);
                 self.split(extents)
             }
             _ if whole.count > MAX_SLOTS => {

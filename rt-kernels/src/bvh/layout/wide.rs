@@ -18,7 +18,7 @@ use simd4::{Simd, SimdF32};
 
 use super::MAX_SLOTS;
 use super::collapse::{Inner, Subtree};
-use crate::bvh::build::{self, Content, Reference};
+use crate::bvh::build::{self, Content, Join, Reference};
 use crate::bvh::refit::Refit;
 use crate::geom::Aabb;
 use crate::packet::Boxes;
@@ -137,34 +137,42 @@ pub struct Wide<const N: usize> {
 
 impl<const N: usize> Wide<N> {
     /// Converts a build tree.
-    pub(crate) fn new(primitives: &Primitives, tree: build::Tree) -> Self {
+    pub(crate) fn new(primitives: &Primitives, tree: build::Tree, join: &impl Join) -> Self {
         let build::Tree { root, order: mut references } = tree;
+        let counts = primitives.counts();
         let mut wide = Wide {
             nodes: Vec::new(),
             blocks: Vec::new(),
             spheres: Vec::with_capacity(primitives.spheres.len()),
             cones: Vec::with_capacity(primitives.cones.len()),
-            counts: primitives.counts(),
+            counts,
             depth: 0,
         };
-        let mut leaves = [const { Vec::new() }; KINDS];
-        if let Some(root) = root {
-            let references = &mut references;
-            let (leaves, wide) = (&mut leaves, &mut wide);
-            let mut converter = Converter { primitives, references, leaves, wide };
-            let children = match converter.subtree(root) {
-                Subtree::Inner(inner) => open(inner, 1),
-                leaf => vec![leaf],
-            };
-            converter.node(children, 1);
+        let Some(root) = root else { return wide };
+        if counts.iter().filter(|&&count| count > 0).count() > 1 {
+            root.leaves(&mut |_, range| {
+                references[range].sort_by_key(|one| kind(&counts, one.prim()));
+            });
         }
-        let [_, of_spheres, of_cones] = leaves;
-        let blocks = wide.blocks.len();
-        for (leaves, before) in [(of_spheres, blocks), (of_cones, blocks + wide.spheres.len())] {
+        let blocks = Blocks { counts, references: &references };
+        let whole = blocks.subtree(root, 0, join);
+        let leaves = [const { Vec::new() }; KINDS];
+        let (slots, prims) = (Vec::new(), Vec::new());
+        let mut converter = Converter { primitives, blocks, leaves, wide: &mut wide, slots, prims };
+        let children = match whole {
+            Subtree::Inner(inner) => open(inner, 1),
+            leaf => vec![leaf],
+        };
+        converter.node(children, 1);
+        let Converter { leaves: [_, of_spheres, of_cones], slots, .. } = converter;
+        let (blocks, spheres) = (slots.len(), wide.spheres.len());
+        for (leaves, before) in [(of_spheres, blocks), (of_cones, blocks + spheres)] {
             for (node, lane) in leaves {
                 wide.nodes[node].children[lane].0 += (before as u32) << 4;
             }
         }
+        wide.blocks.resize(blocks, RecordBlock::new(&[]));
+        fill(primitives, &slots, &mut wide.blocks, join);
         wide
     }
 
@@ -293,43 +301,37 @@ fn cone(primitives: &Primitives, prim: u32) -> ConeRecord {
     ConeRecord::new(&primitives.cones[prim as usize - first], prim)
 }
 
-/// A layout that grows.
-struct Converter<'a, const N: usize> {
-    primitives: &'a Primitives,
-    references: &'a mut [Reference],
-    wide: &'a mut Wide<N>,
-    /// The nodes and lanes of the leaves of each kind, whose slots count from the first of that kind.
-    leaves: &'a mut [Vec<(usize, usize)>; KINDS],
+/// At so many levels of the build tree from the root on, what is below may be converted at once.
+const PARALLEL_DEPTHS: usize = 10;
+
+/// What is a leaf here, and what is a node.
+struct Blocks<'a, const N: usize> {
+    counts: [usize; KINDS],
+    /// Those of a leaf are in the order of their kinds.
+    references: &'a [Reference],
 }
 
-impl<const N: usize> Converter<'_, N> {
-    /// A node and all below, down to what is a leaf here.
-    fn subtree(&mut self, node: build::Node) -> Subtree<N> {
+impl<const N: usize> Blocks<'_, N> {
+    /// A node and all below, down to what is a leaf here; `depth` is how deep it is itself.
+    fn subtree(&self, node: build::Node, depth: usize, join: &impl Join) -> Subtree<N> {
         if self.parts(&node) == 0 {
             return Subtree::Leaf(node);
         }
         let aabb = node.aabb;
-        let children = self.part(node).into_iter().map(|part| self.subtree(part)).collect();
+        let mut parts = self.part(node);
+        let all = |parts: Vec<build::Node>| -> Vec<_> {
+            parts.into_iter().map(|part| self.subtree(part, depth + 1, join)).collect()
+        };
+        if depth >= PARALLEL_DEPTHS {
+            return Subtree::inner(aabb, all(parts));
+        }
+        let last = parts.split_off(parts.len() / 2);
+        let (mut children, last) = join.join(|| all(parts), || all(last));
+        children.extend(last);
         Subtree::inner(aabb, children)
     }
 
-    /// Lays out a node and all below, and returns where it is.
-    fn node(&mut self, children: Vec<Subtree<N>>, depth: usize) -> usize {
-        let at = self.wide.nodes.len();
-        self.wide.nodes.push(WideNode::EMPTY);
-        self.wide.depth = self.wide.depth.max(depth);
-        for (lane, child) in children.into_iter().enumerate() {
-            self.wide.nodes[at].set_box(lane, child.aabb());
-            let child = match child {
-                Subtree::Inner(inner) => Child::node(self.node(open(inner, depth + 1), depth + 1)),
-                Subtree::Leaf(node) => self.leaf(&node, (at, lane)),
-            };
-            self.wide.nodes[at].children[lane] = child;
-        }
-        at
-    }
-
-    /// How many nodes [`part`](Converter::part) makes of one; 0 for what is a leaf here.
+    /// How many nodes [`part`](Blocks::part) makes of one; 0 for what is a leaf here.
     fn parts(&self, node: &build::Node) -> usize {
         match &node.content {
             _ if self.is_block(node) => 0,
@@ -346,17 +348,14 @@ impl<const N: usize> Converter<'_, N> {
 
     /// A node's children, or the halves of those if they are more than N, or of a leaf if it is of
     /// several kinds or too large.
-    fn part(&mut self, node: build::Node) -> Vec<build::Node> {
+    fn part(&self, node: build::Node) -> Vec<build::Node> {
         match node.content {
             Content::Inner(children) if children.len() > N => halves(children.into_vec()).into(),
             Content::Inner(children) => children.into_vec(),
             Content::Leaf(Range { start, end }) => {
-                let counts = self.primitives.counts();
-                let kind = |one: &Reference| kind(&counts, one.prim());
-                let references = &mut self.references[start..end];
-                references.sort_by_key(kind);
-                let least = kind(&references[0]);
-                let first = references.partition_point(|one| kind(one) == least);
+                let references = &self.references[start..end];
+                let least = self.kind(&references[0]);
+                let first = references.partition_point(|one| self.kind(one) == least);
                 let count = references.len();
                 let first = if first < count { first } else { count / 2 };
                 [start..start + first, start + first..end]
@@ -372,7 +371,7 @@ impl<const N: usize> Converter<'_, N> {
     }
 
     fn kind(&self, reference: &Reference) -> usize {
-        kind(&self.primitives.counts(), reference.prim())
+        kind(&self.counts, reference.prim())
     }
 
     /// Whether all below is triangles, and no more than N.
@@ -393,36 +392,101 @@ impl<const N: usize> Converter<'_, N> {
             }
         }
     }
+}
+
+/// A layout that grows.
+struct Converter<'a, const N: usize> {
+    primitives: &'a Primitives,
+    blocks: Blocks<'a, N>,
+    wide: &'a mut Wide<N>,
+    /// The nodes and lanes of the leaves of each kind, whose slots count from the first of that kind.
+    leaves: [Vec<(usize, usize)>; KINDS],
+    /// What will be in the blocks.
+    slots: Vec<Slot<N>>,
+    /// Those of one leaf.
+    prims: Vec<u32>,
+}
+
+/// The triangles of a block, and after them as often as need be [`NO_PRIM`].
+type Slot<const N: usize> = [u32; N];
+
+/// No triangle.
+const NO_PRIM: u32 = u32::MAX;
+
+impl<const N: usize> Converter<'_, N> {
+    /// Lays out a node and all below, and returns where it is.
+    fn node(&mut self, children: Vec<Subtree<N>>, depth: usize) -> usize {
+        let at = self.wide.nodes.len();
+        self.wide.nodes.push(WideNode::EMPTY);
+        self.wide.depth = self.wide.depth.max(depth);
+        for (lane, child) in children.into_iter().enumerate() {
+            self.wide.nodes[at].set_box(lane, child.aabb());
+            let child = match child {
+                Subtree::Inner(inner) => Child::node(self.node(open(inner, depth + 1), depth + 1)),
+                Subtree::Leaf(node) => self.leaf(&node, (at, lane)),
+            };
+            self.wide.nodes[at].children[lane] = child;
+        }
+        at
+    }
 
     /// Lays out the primitives of all leaves below; `place` is the child's.
     fn leaf(&mut self, node: &build::Node, place: (usize, usize)) -> Child {
-        let mut prims = Vec::new();
+        let Converter { primitives, blocks, wide, prims, slots, .. } = self;
+        prims.clear();
         node.leaves(&mut |_, range| {
-            prims.extend(self.references[range].iter().map(Reference::prim));
+            prims.extend(blocks.references[range].iter().map(Reference::prim));
         });
         // Of a box that was cut there may be several pieces.
         prims.sort_unstable();
         prims.dedup();
-        let kind = kind(&self.primitives.counts(), prims[0]);
+        let kind = kind(&blocks.counts, prims[0]);
         self.leaves[kind].push(place);
-        let wide = &mut *self.wide;
         if kind == 0 {
-            let blocks = &mut wide.blocks;
-            let first = blocks.len();
-            for prims in prims.chunks(N) {
-                let records: Vec<_> = prims.iter().map(|&i| record(self.primitives, i)).collect();
-                blocks.push(RecordBlock::new(&records));
-            }
-            Child::leaf(first..blocks.len())
+            let first = slots.len();
+            slots.extend(prims.chunks(N).map(|prims| {
+                let mut slot = [NO_PRIM; N];
+                slot[..prims.len()].copy_from_slice(prims);
+                slot
+            }));
+            Child::leaf(first..slots.len())
         } else if kind == 1 {
             let first = wide.spheres.len();
-            wide.spheres.extend(prims.iter().map(|&prim| sphere(self.primitives, prim)));
+            wide.spheres.extend(prims.iter().map(|&prim| sphere(primitives, prim)));
             Child::leaf(first..wide.spheres.len())
         } else {
             let first = wide.cones.len();
-            wide.cones.extend(prims.iter().map(|&prim| cone(self.primitives, prim)));
+            wide.cones.extend(prims.iter().map(|&prim| cone(primitives, prim)));
             Child::leaf(first..wide.cones.len())
         }
+    }
+}
+
+/// The least number of blocks of which the halves may be filled at once.
+const PARALLEL_BLOCKS: usize = 1024;
+
+/// Puts the triangles that slots name into as many blocks.
+fn fill<const N: usize>(
+    primitives: &Primitives,
+    slots: &[Slot<N>],
+    blocks: &mut [RecordBlock<N>],
+    join: &impl Join,
+) {
+    if slots.len() >= PARALLEL_BLOCKS {
+        let ((slots, more_slots), (blocks, more_blocks)) =
+            (slots.split_at(slots.len() / 2), blocks.split_at_mut(slots.len() / 2));
+        join.join(
+            || fill(primitives, slots, blocks, join),
+            || fill(primitives, more_slots, more_blocks, join),
+        );
+        return;
+    }
+    for (slot, block) in slots.iter().zip(blocks) {
+        let mut records = [Record::nothing(); N];
+        let prims = slot.iter().take_while(|&&prim| prim != NO_PRIM);
+        let count =
+            records.iter_mut().zip(prims).map(|(to, &i)| *to = record(primitives, i)).count();
+        *block = RecordBlock::new(&records[..count]);
     }
 }
 
@@ -507,7 +571,8 @@ mod tests {
         for (builder, block) in
             builders.into_iter().flat_map(|builder| blocks.map(|b| (builder, b)))
         {
-            let mut wide = Wide::<N>::new(&scene, builder.build(&scene, block, &Sequential));
+            let mut wide =
+                Wide::<N>::new(&scene, builder.build(&scene, block, &Sequential), &Sequential);
             assert_eq!(looked_through(&wide, &scene), vec![1; scene.len()], "{builder:?}");
             let most = wide.nodes.len() * (N - 1) + 1;
             let leaves = wide.nodes.iter().flat_map(|node| &node.children);
