@@ -127,16 +127,17 @@ impl Binning {
     }
 
     /// What is in each bin of each axis.
-    fn fill(&self, references: &[Reference], join: &impl Join) -> [[Side; BINS]; 3] {
+    fn fill<const B: usize>(&self, references: &[Reference], join: &impl Join) -> [[Side; B]; 3] {
         if references.len() >= PARALLEL {
             let (left, right) = references.split_at(references.len() / 2);
-            let (mut bins, more) = join.join(|| self.fill(left, join), || self.fill(right, join));
+            let (mut bins, more) =
+                join.join(|| self.fill::<B>(left, join), || self.fill::<B>(right, join));
             for (bin, more) in bins.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
                 bin.add(&more.bounds, more.count);
             }
             return bins;
         }
-        let mut bins = [[Side::empty(); BINS]; 3];
+        let mut bins = [[Side::empty(); B]; 3];
         for reference in references {
             for (bins, place) in bins.iter_mut().zip(self.bins(reference)) {
                 bins[place].add(reference.bounds(), 1);
@@ -165,17 +166,33 @@ pub(super) fn best_split(
     block: Block,
     join: &impl Join,
 ) -> Option<Split> {
+    // To clear bins that nobody uses would take longer than to fill those of a few references.
+    let used = bins_for(references.len());
+    if used <= BINS / 2 {
+        best_of::<{ BINS / 2 }>(references, centers, used, block, join)
+    } else {
+        best_of::<BINS>(references, centers, used, block, join)
+    }
+}
+
+/// The cheapest of the splits between so many bins, at most `B`.
+fn best_of<const B: usize>(
+    references: &[Reference],
+    centers: &Bounds,
+    used: usize,
+    block: Block,
+    join: &impl Join,
+) -> Option<Split> {
     if references.len() < 2 {
         return None;
     }
-    let used = bins_for(references.len());
     let binning = Binning::new(centers, used);
-    let bins = binning.fill(references, join);
+    let bins = binning.fill::<B>(references, join);
     let mut best = None;
     let mut least = f32::INFINITY;
     for (axis, bins) in bins.iter().enumerate() {
         let bins = &bins[..used];
-        let mut right_costs = [0.0; BINS];
+        let mut right_costs = [0.0; B];
         let mut right = Side::empty();
         for (bin, cost) in bins.iter().zip(&mut right_costs[..used]).skip(1).rev() {
             right.add(&bin.bounds, bin.count);
