@@ -82,12 +82,18 @@ impl<V: SimdF32> Query<V> for Single<'_, V> {
             self.limit = V::splat(s, self.hit.t);
             return;
         }
-        let Some((_, least)) = t.argmin(mask) else { return };
-        let closest = mask & t.eq(V::splat(s, least));
-        let Some((lane, prim)) = prim.argmin(closest) else { return };
-        if least < self.hit.t || prim < self.hit.prim {
-            // Of two zeros, that of the primitive.
-            let t = t.lane(lane);
+        let lanes = mask.bitmask();
+        // Most often it is one lane, and there is nothing to compare.
+        let lane = if lanes & lanes.wrapping_sub(1) == 0 {
+            lanes.trailing_zeros() as usize & (V::LANES - 1)
+        } else {
+            let Some((_, least)) = t.argmin(mask) else { return };
+            let closest = mask & t.eq(V::splat(s, least));
+            let Some((lane, _)) = prim.argmin(closest) else { return };
+            lane
+        };
+        let (t, prim) = (t.lane(lane), prim.lane(lane));
+        if lanes != 0 && (t < self.hit.t || prim < self.hit.prim) {
             self.hit = Hit { t, prim, u: u.lane(lane), v: v.lane(lane) };
             self.limit = V::splat(s, t);
         }
