@@ -371,7 +371,10 @@ impl<S: Simd> Traversal<'_, '_, S> {
         self.stats.triangle_tests += u64::from(groups.count_ones()) * S::LANES as u64;
         if beam.has_apex() {
             let apex = beam.origin.map(|[origin, _]| origin);
-            let volumes = EdgeVolumes::<S::f32x4>::new(s, record, beam.axes, apex);
+            let volumes = EdgeVolumes::<S::f32x4>::new(s, record, beam, apex);
+            if volumes.lanes == 0 {
+                return;
+            }
             let triangle = volumes.spread::<S::f32s>(s, 0);
             let mut may_hit = 0;
             while groups != 0 {

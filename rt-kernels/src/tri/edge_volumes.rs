@@ -22,10 +22,11 @@
 //! Source: the volumes are those of Amanatides and Choi, "Ray Tracing Triangular Meshes", 1995; the
 //! bound is worked out here.
 
-use simd4::SimdF32;
 use simd4::math::Vec3;
+use simd4::{SimdF32, SimdMask};
 
 use super::Records;
+use crate::packet::{Beam, Bounds};
 
 /// A bound of both tests' errors, times the square of the greatest coordinate.
 const BOUND: f32 = 1.0 / (1 << 18) as f32;
@@ -38,26 +39,36 @@ pub(crate) struct EdgeVolumes<B: SimdF32> {
     /// The cross products of b and c, c and a, a and b.
     normals: [[B::Array; 3]; 3],
     bound: B::Array,
+    /// The triangles that some ray of the beam may hit: a bit for each lane.
+    pub(crate) lanes: u32,
 }
 
 impl<B: SimdF32> EdgeVolumes<B> {
-    /// Of triangles whose records are their corners, seen from `origin`; both with the axes in that
-    /// order.
+    /// Of triangles whose records are their corners, seen from the `origin` of the rays of a beam, in
+    /// the order of its axes.
     #[inline(always)]
     pub(crate) fn new<R: Records<B>>(
         s: B::Simd,
         records: &R,
-        axes: [usize; 3],
+        &Beam { axes, slopes, .. }: &Beam,
         origin: [f32; 3],
     ) -> Self {
         let a = relative(s, records, 0, axes, origin);
         let b = relative(s, records, 1, axes, origin);
         let c = relative(s, records, 2, axes, origin);
         let greatest = greatest(a).max(greatest(b)).max(greatest(c));
-        let bound = greatest * greatest * B::splat(s, BOUND);
+        let bound = (greatest * greatest * B::splat(s, BOUND)).max(B::splat(s, LEAST_BOUND));
+        let [na, nb, nc] = [cross(c, b), cross(a, c), cross(b, a)];
+        let (least_a, greatest_a) = extremes(s, na, slopes);
+        let (least_b, greatest_b) = extremes(s, nb, slopes);
+        let (least_c, greatest_c) = extremes(s, nc, slopes);
+        let least = greatest_a.min(greatest_b).min(greatest_c);
+        let greatest = least_a.max(least_b).max(least_c);
+        let margin = bound + bound;
         EdgeVolumes {
-            normals: [cross(c, b), cross(a, c), cross(b, a)],
-            bound: bound.max(B::splat(s, LEAST_BOUND)).to_array(),
+            normals: [arrays(na), arrays(nb), arrays(nc)],
+            bound: bound.to_array(),
+            lanes: (least.ge(-margin) | greatest.le(margin)).bitmask(),
         }
     }
 
@@ -98,6 +109,21 @@ fn volume<V: SimdF32>(n: Vec3<V>, x: V, y: V) -> V {
     x.mul_add_fast(n.x, y.mul_add_fast(n.y, n.z))
 }
 
+/// The least and the greatest volume of rays with such slopes.
+#[inline(always)]
+fn extremes<B: SimdF32>(s: B::Simd, n: Vec3<B>, [x, y]: [Bounds; 2]) -> (B, B) {
+    let (dx, dy) = (B::splat(s, (x[1] - x[0]) * 0.5), B::splat(s, (y[1] - y[0]) * 0.5));
+    let (x, y) = (B::splat(s, (x[0] + x[1]) * 0.5), B::splat(s, (y[0] + y[1]) * 0.5));
+    let middle = volume(n, x, y);
+    let apart = dx.mul_add_fast(n.x.abs(), dy * n.y.abs());
+    (middle - apart, middle + apart)
+}
+
+#[inline(always)]
+fn arrays<B: SimdF32>(v: Vec3<B>) -> [B::Array; 3] {
+    [v.x.to_array(), v.y.to_array(), v.z.to_array()]
+}
+
 #[inline(always)]
 fn relative<B: SimdF32, R: Records<B>>(
     s: B::Simd,
@@ -117,11 +143,11 @@ fn greatest<B: SimdF32>(v: Vec3<B>) -> B {
 }
 
 #[inline(always)]
-fn cross<B: SimdF32>(a: Vec3<B>, b: Vec3<B>) -> [B::Array; 3] {
+fn cross<B: SimdF32>(a: Vec3<B>, b: Vec3<B>) -> Vec3<B> {
     let x = a.y.mul_sub_fast(b.z, a.z * b.y);
     let y = a.z.mul_sub_fast(b.x, a.x * b.z);
     let z = a.x.mul_sub_fast(b.y, a.y * b.x);
-    [x.to_array(), y.to_array(), z.to_array()]
+    Vec3::new(x, y, z)
 }
 
 #[inline(always)]

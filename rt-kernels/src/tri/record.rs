@@ -179,16 +179,6 @@ impl<const N: usize> RecordBlock<N> {
         block
     }
 
-    /// The number of records in it.
-    #[inline(always)]
-    pub(crate) fn count(&self) -> usize {
-        let mut count = 0;
-        while count < N && self.words[count] != Self::NO_PRIM {
-            count += 1;
-        }
-        count
-    }
-
     /// The numbers of the triangles that it was made of.
     pub(crate) fn prims(&self) -> impl Iterator<Item = u32> {
         let numbers = self.words.iter().map(|word| word & Self::NUMBER);

@@ -254,11 +254,14 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
         let (s, wide) = (self.s, self.wide);
         for block in wide.blocks(slots) {
             let lanes = BlockLanes::new(block, 0);
-            let volumes = EdgeVolumes::<B>::new(s, &lanes, culling.beam.axes, culling.apex());
+            let volumes = EdgeVolumes::<B>::new(s, &lanes, culling.beam, culling.apex());
             // The pairs of a triangle and a register that are not certain to miss each other.
             let mut pairs = [(0, 0); MAX_PAIRS];
             let mut count = 0;
-            for lane in 0..block.count() {
+            let mut left = volumes.lanes;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
                 let triangle = volumes.spread::<S::f32s>(s, lane);
                 for g in 0..self.packet.groups::<S::f32s>() {
                     let rays = of_group::<S>(rays, g);
