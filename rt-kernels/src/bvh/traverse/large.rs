@@ -32,9 +32,6 @@ use crate::slab::{interval, robust};
 use crate::tri::edge_volumes::EdgeVolumes;
 use crate::tri::{self, BlockLanes, OwnBoxLanes, Watertight};
 
-/// The greatest difference of slopes for which a beam is narrow.
-const NARROW: f32 = 0.25;
-
 /// From so many lanes on it pays to sort rays.
 const SORTED: usize = 8;
 
@@ -148,9 +145,7 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
             return self.one_by_one::<B>(Child::ROOT, rays);
         }
         let beam = self.packet.beam::<S::f32s>(self.s);
-        let [x, y] = beam.slopes;
-        let narrow = x[1] - x[0] <= NARROW && y[1] - y[0] <= NARROW;
-        if narrow && beam.has_apex() {
+        if beam.has_apex() {
             self.run::<B, Pyramid>(&Culling::new(&beam), rays);
         } else {
             self.run::<B, Spread>(&Culling::new(&beam), rays);
@@ -366,12 +361,12 @@ trait Way {
     ) -> V::Mask;
 }
 
-/// Rays with one origin, close together.
+/// Rays with one origin.
 struct Pyramid;
 
 impl Way for Pyramid {
     const FEW: u32 = 2;
-    const FEW_IN_LEAF: u32 = 4;
+    const FEW_IN_LEAF: u32 = 12;
 
     type Seen<B: SimdF32> = Sides<B>;
 
