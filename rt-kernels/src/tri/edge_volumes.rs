@@ -7,17 +7,24 @@
 //! left out only if one edge function is surely negative and another surely positive: that is how the
 //! test rejects. All others are for the test to decide, so the answer is its own.
 //!
+//! Volumes are linear in the slopes. So from the least and the greatest slopes of a beam it is known
+//! how far a volume may be from that in their middle, and which triangles are out of reach for all rays:
+//! they are sorted out first, all lanes at once.
+//!
 //! **Precision.** With u = 2^-24 and M the greatest coordinate of the three corners, and slopes of at
 //! most 1: a sheared coordinate is off by at most 3u M of a value of at most 2M, hence the test's edge
 //! function by 24u M² (before its own rounding, which does not change a sign). The cross product is
 //! off by 4u M² on each axis, hence its product with (x, y, 1) by 12u M², and by 14u M² more for the
-//! roundings of that. What is beyond 64u M² has the right sign. Coordinates of up to 2^40 are within
+//! roundings of that. What is beyond 64u M² has the right sign. The extremes of a beam are off by as
+//! much as the volume of a ray and 12u M² for what they are apart: where they are beyond twice that
+//! bound, the volume of every ray is beyond it. Coordinates of up to 2^40 are within
 //! the range, and where M² vanishes so do all differences: the bound is no less than 2^-100.
 //!
 //! **Degenerate inputs.** A triangle without area is never certain. A lane without a triangle has
 //! NaNs and is always left out.
 //!
-//! **Operations**, for each ray: 6 fused multiply-adds, 2 minima, 2 maxima, 2 comparisons.
+//! **Operations**, for each ray: 6 fused multiply-adds, 2 minima, 2 maxima, 2 comparisons; for a beam
+//! 9, 3 multiplications, 6 additions and as many minima, maxima and comparisons.
 //!
 //! Source: the volumes are those of Amanatides and Choi, "Ray Tracing Triangular Meshes", 1995; the
 //! bound is worked out here.
@@ -157,4 +164,72 @@ fn splat<B: SimdF32, V: SimdF32<Simd = B::Simd>>(
     lane: usize,
 ) -> Vec3<V> {
     Vec3::splat(s, [x.as_ref()[lane], y.as_ref()[lane], z.as_ref()[lane]])
+}
+
+#[cfg(test)]
+mod tests {
+    use simd4::{Lanes, Level, Simd, dispatch};
+
+    use super::*;
+    use crate::geom::Triangle;
+    use crate::tri::{BlockLanes, Record, RecordBlock};
+
+    /// Eight triangles of all sizes, about where the beam goes.
+    fn block(seed: usize) -> RecordBlock<8> {
+        let wave =
+            |k: usize| (glam::Vec3::new(0.61, 1.37, 2.71) * (seed * 97 + k) as f32).map(f32::sin);
+        let triangle = |i: usize| {
+            let size = [0.01, 0.1, 1.0, 4.0][i % 4];
+            Triangle {
+                corners: [1, 2, 3].map(|k| wave(i) + wave(9 * i + k) * size + glam::Vec3::Z * 2.0),
+            }
+        };
+        let records: Vec<_> = (0..7).map(|i| Record::corners(&triangle(i), i as u32)).collect();
+        RecordBlock::new(&records)
+    }
+
+    /// How many triangles are out of reach of the beam, and how many of those of some ray.
+    #[inline(always)]
+    fn missed<S: Simd>(s: S, block: &RecordBlock<8>, beam: &Beam) -> [u32; 2] {
+        let volumes = EdgeVolumes::<S::f32x8>::new(s, &BlockLanes::new(block, 0), beam, [0.0; 3]);
+        assert!(volumes.lanes >> 7 == 0, "the last lane has no triangle");
+        let mut of_rays = u32::MAX;
+        for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
+            let [x, y] = [(beam.slopes[0], i), (beam.slopes[1], j)]
+                .map(|([a, b], k)| (a + (b - a) * (k as f32 / 4.0)).clamp(a, b));
+            for lane in 0..7 {
+                let triangle = volumes.spread::<S::f32x4>(s, lane);
+                if triangle.may_hit(S::f32x4::splat(s, x), S::f32x4::splat(s, y)).any() {
+                    of_rays &= !(1 << lane);
+                }
+            }
+        }
+        let of_beam = !volumes.lanes & 127;
+        assert_eq!(of_beam & of_rays, of_beam, "a ray may hit what its beam leaves out");
+        [of_beam.count_ones(), (of_rays & 127).count_ones()]
+    }
+
+    #[test]
+    fn a_beam_leaves_out_what_all_its_rays_miss() {
+        let [mut by_beams, mut by_rays] = [0; 2];
+        for seed in 0..200 {
+            let width = [0.0, 0.01, 0.1, 1.0][seed % 4];
+            let [x, y] = [0.37, 0.73].map(|k| (seed as f32 * k).sin() * (1.0 - width));
+            let slopes = [[x, x + width], [y, y + width]];
+            let all = [0.0, 0.0];
+            let beam = Beam {
+                axes: [0, 1, 2],
+                negative: [false; 3],
+                origin: [all; 3],
+                inv: [all; 3],
+                slopes,
+            };
+            for level in Level::available() {
+                let [of_beam, of_rays] = dispatch!(level, s => missed(s, &block(seed), &beam));
+                by_beams += of_beam;
+                by_rays += of_rays;
+            }
+        }
+        assert!(by_beams * 10 > by_rays * 8 && by_rays > 0, "{by_beams} of {by_rays}");
+    }
 }

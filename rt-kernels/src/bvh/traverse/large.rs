@@ -3,8 +3,8 @@
 //! The children of a node are tested at once against all rays ([`beam`]); those that are left, ray by
 //! ray. Each child goes on with the rays that may hit it, a bit for each, and where it is entered
 //! first. What was found closer since then drops rays, and with the last of them the child. In a
-//! leaf, rays with a common origin are filtered by [`EdgeVolumes`] before the triangle test. Where one
-//! ray is left, it goes on [alone](super::wide).
+//! leaf, rays with a common origin are filtered by [`EdgeVolumes`] before the triangle test. Where few
+//! are left, each goes on [alone](super::wide).
 //!
 //! **The answer** is that of every other traversal ([why](crate#why-the-answer-is-one)): a ray is left
 //! out only where it misses the box by the slab test, or enters it after its bound, or where the
