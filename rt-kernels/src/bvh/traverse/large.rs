@@ -33,7 +33,7 @@ use crate::tri::edge_volumes::EdgeVolumes;
 use crate::tri::{self, BlockLanes, OwnBoxLanes, Watertight};
 
 /// From so many lanes on it pays to sort rays.
-const SORTED: usize = 8;
+const SORTED: usize = 16;
 
 /// The most triangles of a block times the most registers.
 const MAX_PAIRS: usize = 8 * LARGE / 4;
