@@ -28,7 +28,8 @@ use crate::error::Error;
 use values::{angle, color, crop, light, offset, scale, size, tolerance, vec3};
 
 /// What every command takes as a scene.
-const SCENE: &str = "An OBJ, NFF or AFF file, or spd:NAME[:SIZE] for a procedural scene: spd:balls";
+const SCENE: &str =
+    "An OBJ, PLY, NFF or AFF file, or spd:NAME[:SIZE] for a procedural scene: spd:balls";
 
 /// A ray tracer that gives the same bits on every machine.
 #[derive(Parser)]

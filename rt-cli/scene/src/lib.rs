@@ -1,7 +1,7 @@
 //! Scene descriptions: what is there, not how it is traced.
 //!
 //! [`Scene`] is plain data: a triangle mesh, quadrics that stay quadrics until someone
-//! [tessellates](tessellate()) them, materials, lights and a view. It comes from a file ([`obj`], [`nff`], [`aff`]) or from a procedure ([`spd`]); [`open`] takes
+//! [tessellates](tessellate()) them, materials, lights and a view. It comes from a file ([`obj`], [`nff`], [`aff`], [`ply`]) or from a procedure ([`spd`]); [`open`] takes
 //! either by name.
 //!
 //! Readers take what is found in the wild and say what they left out ([`Facts`]). What they cannot
@@ -14,6 +14,7 @@ mod diag;
 mod model;
 pub mod nff;
 pub mod obj;
+pub mod ply;
 pub mod spd;
 mod tessellate;
 mod text;
@@ -43,7 +44,8 @@ pub fn open(name: impl AsRef<OsStr>) -> Result<Scene, Error> {
         Some("obj") => obj::read(path),
         Some("nff") => nff::read(path),
         Some("aff") => aff::read(path),
-        _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj, .nff or .aff" }),
+        Some("ply") => ply::read(path),
+        _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj, .nff, .aff or .ply" }),
     }
 }
 

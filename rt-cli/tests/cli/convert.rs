@@ -94,6 +94,28 @@ fn an_aff_and_what_it_includes_become_one_nff() {
 }
 
 #[test]
+fn a_ply_is_read() {
+    let scratch = Scratch::new();
+    let corners = ["0 0 0", "2 0 0", "2 2 0.5", "0 2 1"];
+    let header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
+                  property float z\nelement face 1\nproperty list uchar int vertex_indices\n\
+                  end_header\n";
+    scratch.file("a.ply", format!("{header}{}\n4 0 1 2 3\n", corners.join("\n")));
+    let vertices = corners.map(|corner| format!("v {corner}\n")).concat();
+    scratch.file("a.obj", format!("{vertices}f 1 2 3 4\n"));
+    let run = scratch.rt(&["convert", "a.ply", "-o", "b.obj"]).exits(0);
+    assert_eq!(run.stderr, "b.obj: 2 triangles, 1 material\n");
+    let want = pixels(&scratch, "a.obj", &["-s", "40x40"]);
+    for scene in ["a.ply", "b.obj"] {
+        assert!(pixels(&scratch, scene, &["-s", "40x40"]) == want, "{scene}");
+    }
+    scratch.file("bad.ply", format!("{header}{}\n4 0 1 2\n", corners.join("\n")));
+    let run = scratch.rt(&["info", "bad.ply"]).exits(1);
+    let message = "bad.ply:14:1: Expected 4 list elements, but found only 3.\n  4 0 1 2\n  ^\n";
+    assert!(run.stderr.ends_with(message), "{}", run.stderr);
+}
+
+#[test]
 fn what_a_format_cannot_hold_is_told() {
     let scratch = Scratch::with_room();
     let run = scratch.rt(&["convert", "spd:balls:1", "-o", "a.obj"]).exits(1);

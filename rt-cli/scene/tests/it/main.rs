@@ -7,6 +7,7 @@ mod nff;
 mod obj;
 mod obj_errors;
 mod opening;
+mod ply;
 mod polygons;
 mod samples;
 mod spd;

@@ -29,6 +29,11 @@ const AFF: &str = "b 0 0 1 v from 0 0 9 at 0 0 0 up 0 1 0 angle 40 hither 1 reso
 /// What it includes.
 const INCLUDED: &str = "p 4 0 0 0 1 0 0 1 1 0 0 1 0\npp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1\n";
 
+const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
+    property float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty uchar red\n\
+    element face 2\nproperty list uchar int vertex_indices\nelement edge 1\nproperty int v\n\
+    end_header\n0 0 0 0 0 1 9\n1 0 0 0 0 1 9\n1 1 0 0 0 1 9\n0 1 0 0 0 1 9\n4 0 1 2 3\n3 0 1 2\n7\n";
+
 /// What may be put into a file: bytes that mean something to a reader, and any other.
 fn piece() -> impl Strategy<Value = Vec<u8>> {
     let words = [
@@ -154,12 +159,17 @@ fn the_files_are_good() {
     let scene = rt_scene::nff::parse(NFF.as_bytes(), "t.nff").unwrap();
     assert_eq!((scene.mesh.triangles.len(), scene.spheres.len(), scene.cones.len()), (4, 1, 1));
     let scene = parse_aff(AFF.as_bytes(), INCLUDED.as_bytes()).unwrap();
+    let ply = rt_scene::ply::parse(PLY.as_bytes(), "t.ply").unwrap();
+    assert_eq!((ply.mesh.triangles.len(), ply.mesh.normals.len()), (3, 4));
     // Twice what is included, three single ones, and those of a ball and a cone.
     assert_eq!(scene.mesh.triangles.len(), 2 * 3 + 3 + 12 * 64 + 8 * 8);
 }
 
 #[test]
 fn every_truncation() {
+    for end in 0..PLY.len() {
+        check(&rt_scene::ply::parse(&PLY.as_bytes()[..end], "t.ply"), end);
+    }
     for end in 0..OBJ.len() {
         check(&parse_obj(&OBJ.as_bytes()[..end], MTL.as_bytes()), end);
     }
@@ -178,6 +188,11 @@ fn every_truncation() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn damaged_ply(bytes in damaged(PLY)) {
+        check(&rt_scene::ply::parse(&bytes, "t.ply"), bytes.len());
+    }
 
     #[test]
     fn damaged_obj(bytes in damaged(OBJ)) {

@@ -22,9 +22,9 @@ fn names_that_lead_nowhere() {
     assert_eq!(message("no/bunny.obj"), missing);
     assert_eq!(message("no/balls.NFF"), missing.replace("bunny.obj", "balls.NFF"));
     let format =
-        "cannot tell the format of bunny.ply: files that are read end in .obj, .nff or .aff";
-    assert_eq!(message("bunny.ply"), format);
-    assert_eq!(message("obj"), format.replace("bunny.ply", "obj"));
+        "cannot tell the format of bunny.stl: files that are read end in .obj, .nff, .aff or .ply";
+    assert_eq!(message("bunny.stl"), format);
+    assert_eq!(message("obj"), format.replace("bunny.stl", "obj"));
     for name in ["spd:foo", "spd:foo:3"] {
         let message = message(name);
         assert!(message.starts_with("unknown scene 'spd:foo': there is spd:balls, "), "{message}");
