@@ -10,7 +10,8 @@ use std::path::PathBuf;
 use xshell::{Shell, cmd};
 
 /// The targets, files in tests/fuzz/targets.
-const TARGETS: [&str; 9] = ["obj", "mtl", "texture", "nff", "aff", "png", "pfm", "exr", "part"];
+const TARGETS: [&str; 10] =
+    ["obj", "mtl", "texture", "nff", "aff", "ply", "png", "pfm", "exr", "part"];
 
 /// What makes LLVM count the edges that a run takes, as cargo-fuzz does, and checks arithmetic.
 const FLAGS: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
