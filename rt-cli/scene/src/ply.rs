@@ -199,8 +199,9 @@ fn told(source: Source<'_>, is_text: bool, error: &ParseError) -> Error {
         _ => reason,
     });
     // A line that the grammar does not know.
-    let column = ["error at 1:", "column: "].iter().find_map(|before| {
-        let digits = reason.split_once(before)?.1;
+    let grammar = ["error at 1:", "ParseError { location: LineCol { line: 1, column: "];
+    let column = grammar.iter().find_map(|before| {
+        let digits = reason.strip_prefix(before)?;
         digits.split(|c: char| !c.is_ascii_digit()).next()?.parse::<usize>().ok()
     });
     let message = match column {
@@ -218,7 +219,8 @@ fn told(source: Source<'_>, is_text: bool, error: &ParseError) -> Error {
             let start: usize = before.map(<[u8]>::len).sum();
             let length = source.text[start..].iter().position(|&byte| byte == b'\n');
             let length = length.unwrap_or(source.text.len() - start);
-            source.diagnostic(start + (column.unwrap_or(1) - 1).min(length), message)
+            let column = column.unwrap_or(1).saturating_sub(1);
+            source.diagnostic(start + column.min(length), message)
         }
         _ => Diagnostic::whole(source.name, message),
     };
