@@ -116,6 +116,8 @@ fn what_is_wrong_is_said() {
         assert!(!message.contains(char::is_control), "{message:?}");
     }
     assert!(error(ply("")).starts_with("t.ply: "));
+    // What a file says is no place, though the parser repeats it.
+    assert!(error(ply("comment \u{b}column: 0\n")).starts_with("t.ply:1:"));
     for length in 0..binary(false).len() {
         assert!(ply(&binary(false)[..length]).is_err(), "cut after {length} bytes");
     }
