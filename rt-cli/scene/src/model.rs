@@ -168,6 +168,13 @@ pub struct Material {
     pub one_sided: bool,
 }
 
+impl Material {
+    /// What stands for both highlights and mirror reflections, in formats that have one colour for them.
+    pub(crate) fn reflected(&self) -> Vec3 {
+        if self.mirror == Vec3::ZERO { self.specular } else { self.mirror }
+    }
+}
+
 impl Default for Material {
     /// Light grey, matt.
     fn default() -> Self {

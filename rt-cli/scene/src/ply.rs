@@ -11,7 +11,7 @@ use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Encoding, Property, PropertyAccess, PropertyAccessResult as Access};
 
 use crate::diag::{Diagnostic, Error};
-use crate::model::{Scene, Skipped, Triangle};
+use crate::model::{Mesh, Scene, Skipped, Triangle};
 use crate::text::{Source, read_file};
 use crate::triangulate::Triangulator;
 
@@ -44,13 +44,13 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<Scene, Error> {
         }
         match &*element.name {
             "vertex" => {
-                let all = Parser::<Vertex>::new();
-                let all = all.read_payload_for_element(&mut reader, element, &header);
+                let parser = Parser::<Vertex>::new();
+                let all = parser.read_payload_for_element(&mut reader, element, &header);
                 vertices = Some((element, all.map_err(told)?));
             }
             "face" => {
-                let all = Parser::<Face>::new();
-                let all = all.read_payload_for_element(&mut reader, element, &header);
+                let parser = Parser::<Face>::new();
+                let all = parser.read_payload_for_element(&mut reader, element, &header);
                 faces = Some(all.map_err(told)?);
             }
             _ => {
@@ -78,43 +78,10 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<Scene, Error> {
         skipped.push(skip("property", why, more as u64));
     }
 
-    let mut scene = Scene { name: crate::base_name(name), ..Scene::default() };
-    // Where the vertices that are used are in the scene.
-    let mut places = vec![u32::MAX; vertices.len()];
     let mut triangulator = Triangulator::default();
-    let (mut corners, mut points) = (Vec::new(), Vec::new());
-    let mut flat: u64 = 0;
-    for (number, Face(indices)) in faces.iter().enumerate() {
-        if indices.len() < 3 {
-            flat += 1;
-            continue;
-        }
-        corners.clear();
-        points.clear();
-        for &index in indices {
-            let Some(vertex) = vertices.get(index as usize) else {
-                let count = vertices.len();
-                let message =
-                    format!("face {number} has the vertex {index}, but there are {count}");
-                return Err(wrong(message));
-            };
-            let place = &mut places[index as usize];
-            if *place == u32::MAX {
-                if !vertex.position.is_finite() || !vertex.normal.is_finite() {
-                    return Err(wrong(format!("vertex {index} is not finite in single precision")));
-                }
-                *place = scene.mesh.positions.len() as u32;
-                scene.mesh.positions.push(vertex.position);
-                scene.mesh.normals.extend(with_normals.then_some(vertex.normal));
-            }
-            corners.push(*place);
-            points.push(vertex.position);
-        }
-        scene.mesh.triangles.extend(triangulator.polygon(&points).iter().map(|triangle| {
-            let position = triangle.map(|corner| corners[corner as usize]);
-            Triangle { position, normal: with_normals.then_some(position), uv: None, material: 0 }
-        }));
-    }
+    let mesh = mesh(&vertices, &faces, with_normals, &mut triangulator).map_err(wrong)?;
+    let mut scene = Scene { name: crate::base_name(name), mesh, ..Scene::default() };
+    let flat = faces.iter().filter(|face| face.is_flat()).count() as u64;
     scene.facts.stated.insert("polygon", faces.len() as u64);
     let unused = (vertices.len() - scene.mesh.positions.len()) as u64;
     for (what, why, count) in
@@ -128,6 +95,45 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<Scene, Error> {
     scene.facts.warnings.extend(triangulator.warning());
     scene.finish();
     Ok(scene)
+}
+
+/// The triangles of all faces, with the vertices that they use; or what is wrong with those.
+fn mesh(
+    vertices: &[Vertex],
+    faces: &[Face],
+    with_normals: bool,
+    triangulator: &mut Triangulator,
+) -> Result<Mesh, String> {
+    let mut mesh = Mesh::default();
+    // Where the vertices that are used are in the mesh.
+    let mut places = vec![u32::MAX; vertices.len()];
+    let (mut corners, mut points) = (Vec::new(), Vec::new());
+    for (number, face) in faces.iter().enumerate().filter(|(_, face)| !face.is_flat()) {
+        corners.clear();
+        points.clear();
+        for &index in &face.0 {
+            let count = vertices.len();
+            let vertex = vertices.get(index as usize).ok_or_else(|| {
+                format!("face {number} has the vertex {index}, but there are {count}")
+            })?;
+            let place = &mut places[index as usize];
+            if *place == u32::MAX {
+                if !vertex.position.is_finite() || !vertex.normal.is_finite() {
+                    return Err(format!("vertex {index} is not finite in single precision"));
+                }
+                *place = mesh.positions.len() as u32;
+                mesh.positions.push(vertex.position);
+                mesh.normals.extend(with_normals.then_some(vertex.normal));
+            }
+            corners.push(*place);
+            points.push(vertex.position);
+        }
+        mesh.triangles.extend(triangulator.polygon(&points).iter().map(|triangle| {
+            let position = triangle.map(|corner| corners[corner as usize]);
+            Triangle { position, normal: with_normals.then_some(position), uv: None, material: 0 }
+        }));
+    }
+    Ok(mesh)
 }
 
 /// What is not read.
@@ -169,6 +175,13 @@ impl PropertyAccess for Vertex {
 /// The vertices at the corners.
 #[derive(Default)]
 struct Face(Vec<u32>);
+
+impl Face {
+    /// Whether it has too few corners.
+    fn is_flat(&self) -> bool {
+        self.0.len() < 3
+    }
+}
 
 impl PropertyAccess for Face {
     fn new() -> Self {

@@ -26,9 +26,8 @@ pub(super) fn material(surface: Surface) -> Material {
 /// What stands for a material. Of ambient light it gives back nothing: so it looks the same to
 /// programs that draw such light.
 pub(super) fn surface(material: &Material) -> Surface {
-    let mirrors = material.mirror != Vec3::ZERO;
     let Vec3 { x: r, y: g, z: b } = material.diffuse;
-    let Vec3 { x: sr, y: sg, z: sb } = if mirrors { material.mirror } else { material.specular };
+    let Vec3 { x: sr, y: sg, z: sb } = material.reflected();
     let (shine, clear, ior) = (material.shininess, grey(material.transmission), material.ior);
     [0.0, 0.0, 0.0, r, g, b, sr, sg, sb, shine, clear, ior]
 }

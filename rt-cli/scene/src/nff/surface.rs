@@ -40,9 +40,7 @@ fn material([r, g, b, kd, ks, shine, transmittance, ior]: Surface) -> Material {
 /// What stands for a material.
 pub(super) fn surface(material: &Material) -> Surface {
     let (Vec3 { x: r, y: g, z: b }, kd) = split_diffuse(material.diffuse);
-    let mirrors = material.mirror != Vec3::ZERO;
-    let reflected = if mirrors { material.mirror } else { material.specular };
-    let (ks, transmittance) = (grey(reflected), grey(material.transmission));
+    let (ks, transmittance) = (grey(material.reflected()), grey(material.transmission));
     [r, g, b, kd, ks, material.shininess, transmittance, material.ior]
 }
 

@@ -88,11 +88,9 @@ fn write_materials(
         writeln!(out, "newmtl {name}")?;
         let opacity = 1.0 - (material.transmission.element_sum() / 3.0).min(1.0);
         let diffuse = if opacity > 0.0 { material.diffuse / opacity } else { Vec3::ZERO };
-        for (keyword, Vec3 { x, y, z }) in [
-            ("Kd", diffuse),
-            ("Ks", if reflects { material.mirror } else { material.specular }),
-            ("Ke", material.emission),
-        ] {
+        for (keyword, Vec3 { x, y, z }) in
+            [("Kd", diffuse), ("Ks", material.reflected()), ("Ke", material.emission)]
+        {
             writeln!(out, "{keyword} {x} {y} {z}")?;
         }
         if let Some(ColorMap { texture, scale, offset }) = material.diffuse_map {

@@ -1,6 +1,7 @@
 //! Layouts: flat arrays, converted from the build tree, that own their copy of the primitives.
 
 mod collapse;
+mod convert;
 mod skip_array;
 mod wide;
 
