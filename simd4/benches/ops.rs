@@ -266,6 +266,7 @@ ops! {
     }
     "move" {
         swizzle = eight |v| swizzle!(v, [7, 2, 5, 0, 3, 6, 1, 4]);
+        permute = map |r| r.a.permute(r.u).to_bits();
         rotate = map |r| r.a.rotate::<1>().to_bits();
         reverse = map |r| r.a.reverse().to_bits();
         zip = pair |r| r.a.zip(r.b);

@@ -140,8 +140,11 @@ fn rays_that_go_together_share_visits() {
     let sizes = [PacketSize::Four, PacketSize::Eight, PacketSize::Sixteen, PacketSize::Large];
     let gains = sizes.map(|packet| gain(&from_eye, packet));
     assert!(gains.is_sorted_by(|a, b| a < b) && gains[3] >= 10, "{gains:?}");
-    let gain = gain(&scattered, PacketSize::Large);
-    assert!(gain >= 1, "{gain}");
+    // Rays that take turns visit what is entered behind a hit too, if it was put on the stack before, but
+    // not much else: a guess at the order of children is nearly as good as their distances.
+    let [turns, single] =
+        [PacketSize::Large, PacketSize::Single].map(|packet| visits(&scattered, packet));
+    assert!(single <= turns && turns * 2 <= single * 3, "{turns} visits, {single} one by one");
     // Of kd-trees too, whose cells are smaller.
     for (name, accel) in accelerators(&scene) {
         let visits = |packet| {

@@ -28,6 +28,13 @@ impl SameAxis {
     }
 }
 
+impl Default for SameAxis {
+    /// z.
+    fn default() -> Self {
+        SameAxis::new(2)
+    }
+}
+
 impl<V: SimdF32> Axes<V> for SameAxis {
     #[inline(always)]
     fn last(self, v: Vec3<V>) -> Vec3<V> {

@@ -4,7 +4,7 @@ use simd4::math::Vec3;
 use simd4::{LaneArray, Lanes, SimdF32, SimdMask};
 
 use super::frame::Shear;
-use super::{Axes, Coherent, Hits, OwnAxes, Packet, Query, Rays, SameAxis};
+use super::{Alone, Axes, Coherent, Hits, OwnAxes, Packet, Query, Rays, SameAxis};
 use crate::Hit;
 
 /// The number of rays in a large packet: a bit for each in a `u64`.
@@ -148,6 +148,40 @@ impl Chunk {
         let mixed = self.left != 0;
         self.left = all;
         mixed
+    }
+
+    /// One of the rays, whatever its class.
+    #[inline(always)]
+    pub(crate) fn alone(&self, ray: usize) -> Alone {
+        let ray = ray % LARGE;
+        let of = |[x, y, z]: &[Column<f32>; 3]| [x[ray], y[ray], z[ray]];
+        let bit = |rays: u64| (rays >> ray & 1) as u32;
+        let [x, y, z] = [bit(self.negative[0]), bit(self.negative[1]), bit(self.negative[2])];
+        let axes = SameAxis::new((2 - 2 * bit(self.dominant[0]) - bit(self.dominant[1])) as usize);
+        let [kx, ky, kz] = axes.order();
+        Alone {
+            origin: of(&self.origin),
+            inv: of(&self.inv),
+            tmin: self.tmin[ray],
+            octant: x | y << 1 | z << 2,
+            negative: [x == 1, y == 1, z == 1],
+            dir: of(&self.dir),
+            axes,
+            shear_origin: [self.origin[kx][ray], self.origin[ky][ray], self.origin[kz][ray]],
+            shear: of(&self.shear),
+        }
+    }
+
+    /// The greatest `t` that matters to a ray which has found nothing.
+    #[inline(always)]
+    pub(crate) fn tmax(&self, ray: usize) -> f32 {
+        self.hits.t[ray % LARGE]
+    }
+
+    /// Takes the rays that are in no class yet.
+    #[inline(always)]
+    pub(crate) fn take_left(&mut self) -> u64 {
+        std::mem::take(&mut self.left)
     }
 
     /// Writes what all rays have found; ray `first` is the first.

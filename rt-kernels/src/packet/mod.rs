@@ -5,6 +5,7 @@
 //! the [`Closest`] hit, or [either](Either) that or whether there is any, also of a [`Single`] ray in
 //! all lanes.
 
+mod alone;
 mod axes;
 mod boxes;
 mod buckets;
@@ -14,6 +15,7 @@ mod query;
 mod single;
 mod stream;
 
+pub use alone::Alone;
 pub use axes::{Axes, OwnAxes, SameAxis};
 pub use boxes::{Boxes, OwnBoxes};
 pub use buckets::Buckets;

@@ -70,6 +70,9 @@ impl Record {
 
 /// Records as a kernel sees them: one in all lanes (`&Record`) or each lane its own ([`BlockLanes`]).
 pub trait Records<V: SimdF32> {
+    /// Whether each lane has its own.
+    const EACH_LANE: bool = false;
+
     /// Where the records' axes differ, their choice does.
     type Axes: Axes<V>;
     /// As many boxes.
@@ -101,7 +104,7 @@ impl<V: SimdF32> Records<V> for Record {
 
     #[inline(always)]
     fn get(&self, s: V::Simd, row: usize, k: usize) -> V {
-        V::splat(s, self.rows[row].numbers[k % 3])
+        V::splat(s, self.rows[row].numbers[k.min(2)])
     }
 
     #[inline(always)]
@@ -225,7 +228,7 @@ impl<V: SimdF32, B: SimdF32, const N: usize> Records<V> for OneOf<'_, B, N> {
 
     #[inline(always)]
     fn get(&self, s: V::Simd, row: usize, k: usize) -> V {
-        V::splat(s, self.block.numbers[row][k % 3][self.lane])
+        V::splat(s, self.block.numbers[row][k.min(2)][self.lane])
     }
 
     #[inline(always)]
@@ -275,12 +278,14 @@ impl<'a, const N: usize> BlockLanes<'a, N> {
 }
 
 impl<V: SimdF32, const N: usize> Records<V> for BlockLanes<'_, N> {
+    const EACH_LANE: bool = true;
+
     type Axes = OwnAxes<V::Mask>;
     type Boxes = OwnBoxes<V>;
 
     #[inline(always)]
     fn get(&self, s: V::Simd, row: usize, k: usize) -> V {
-        self.load(s, &self.block.numbers[row][k % 3])
+        self.load(s, &self.block.numbers[row][k.min(2)])
     }
 
     #[inline(always)]

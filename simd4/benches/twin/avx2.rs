@@ -337,6 +337,8 @@ twins! { "avx2,fma,bmi1,bmi2,lzcnt,popcnt";
     reduce_min = reduce |r| hmin_ps(r.a);
     reduce_max_u32 = fold |r| hmax_epu32(r.u);
 
+    permute = map |r| bits(_mm256_permutevar8x32_ps(r.a, r.u));
+
     copy = map |r| bits(r.a);
 }
 

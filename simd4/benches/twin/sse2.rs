@@ -284,6 +284,13 @@ twins! { "sse2";
         _mm_shuffle_ps::<0b_11_01_11_01>(r.a, r.b),
     );
 
+    permute = map |r| {
+        let (mut lanes, mut order) = ([0; LANES], [0; LANES]);
+        store_epi32(&mut lanes, 0, bits(r.a));
+        store_epi32(&mut order, 0, r.u);
+        load_epi32(&order.map(|lane| lanes[lane as usize % LANES]), 0)
+    };
+
     reduce_sum = reduce |r| {
         let x = _mm_add_ps(r.a, high(r.a));
         _mm_cvtss_f32(_mm_add_ss(x, second(x)))

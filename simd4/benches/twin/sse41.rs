@@ -105,6 +105,14 @@ twins! { "sse4.1";
     max_u32 = map |r| _mm_max_epu32(r.u, r.v);
     abs_i32 = map |r| _mm_abs_epi32(r.i);
 
+    permute = map |r| {
+        let lanes = _mm_and_si128(r.u, _mm_set1_epi32(3));
+        let fours = _mm_set_epi8(12, 12, 12, 12, 8, 8, 8, 8, 4, 4, 4, 4, 0, 0, 0, 0);
+        let bytes = _mm_slli_epi32::<2>(_mm_shuffle_epi8(lanes, fours));
+        let bytes = _mm_or_si128(bytes, _mm_set1_epi32(0x0302_0100));
+        _mm_shuffle_epi8(bits(r.a), bytes)
+    };
+
     reduce_max_u32 = fold |r| {
         let x = _mm_max_epu32(r.u, _mm_shuffle_epi32::<0b_11_10_11_10>(r.u));
         _mm_cvtsi128_si32(_mm_max_epu32(x, _mm_shuffle_epi32::<1>(x))) as u32

@@ -131,10 +131,11 @@ macro_rules! floats {
             rsqrt_fast(a: V) -> V = a.rsqrt_fast();
 
             exp2(a: V) -> V = a.exp2();
-        log2(a: V) -> V = a.log2();
-        pow(a: V, b: V) -> V = a.pow(b);
+            log2(a: V) -> V = a.log2();
+            pow(a: V, b: V) -> V = a.pow(b);
 
-        to_bits(a: V) -> U = a.to_bits();
+            permute(a: V, order: U) -> V = a.permute(order);
+            to_bits(a: V) -> U = a.to_bits();
             from_bits(a: U) -> V = V::from_bits(a);
             from_i32(a: I) -> V = V::from_i32(a);
             from_u32(a: U) -> V = V::from_u32(a);
@@ -173,6 +174,7 @@ macro_rules! integers {
             shr(a: V, n: u32) -> V = a.shr(n);
             shl_by_3(a: V) -> V = a.shl(3);
             shr_by_3(a: V) -> V = a.shr(3);
+            permute(a: V, order: U) -> V = a.permute(order);
         }
     };
 }

@@ -184,6 +184,12 @@ pub trait SimdF32: Lanes<Elem = f32> + Div<Output = Self> + DivAssign + Neg<Outp
         elementary::pow(self, exponent)
     }
 
+    /// As [`SimdU32::permute`].
+    #[inline(always)]
+    fn permute(self, order: Self::U32) -> Self {
+        Self::from_bits(self.to_bits().permute(order))
+    }
+
     // Conversions
 
     /// The bits of each lane.

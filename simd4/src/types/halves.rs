@@ -286,7 +286,23 @@ where
     }
 }
 
-impl<V: SimdU32> SimdU32 for Halves<V> where Self: Lanes<Elem = u32> {}
+impl<V: SimdU32> SimdU32 for Halves<V>
+where
+    Self: Lanes<Elem = u32>,
+{
+    #[inline(always)]
+    fn permute(self, order: Self) -> Self {
+        Halves(half_permuted(self, order.0), half_permuted(self, order.1))
+    }
+}
+
+/// Lanes of both halves, in the order of one.
+#[inline(always)]
+fn half_permuted<V: SimdU32>(Halves(low, high): Halves<V>, order: V) -> V {
+    let upper = V::splat(order.token(), V::LANES as u32);
+    let in_upper = (order & upper).eq(upper);
+    V::select(in_upper, high.permute(order), low.permute(order))
+}
 
 impl<M: SimdMask<Array: Join<bool>>> SimdMask for Halves<M> {
     type Simd = M::Simd;

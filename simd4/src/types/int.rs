@@ -2,7 +2,7 @@
 
 use core::ops::{BitAnd, BitAndAssign, BitOr, BitOrAssign, BitXor, BitXorAssign, Neg, Not};
 
-use super::Lanes;
+use super::{Lanes, soft};
 
 /// Lanes of integers of 32 bits. Arithmetic wraps.
 pub trait SimdInt:
@@ -38,6 +38,12 @@ pub trait SimdI32: SimdInt<Elem = i32> + Neg<Output = Self> {
         (self ^ sign) - sign
     }
 
+    /// As [`SimdU32::permute`].
+    #[inline(always)]
+    fn permute(self, order: Self::U32) -> Self {
+        Self::from_u32(self.to_u32().permute(order))
+    }
+
     /// The same bits as `u32`.
     fn to_u32(self) -> Self::U32;
     /// The same bits as `i32`.
@@ -46,6 +52,21 @@ pub trait SimdI32: SimdInt<Elem = i32> + Neg<Output = Self> {
 
 /// Lanes of `u32`. Arithmetic wraps.
 pub trait SimdU32: SimdInt<Elem = u32> {
+    /// Lane `i` of the result is lane `order[i]`, counted round: a swizzle in an order that is known
+    /// at run time only.
+    ///
+    /// ```
+    /// use simd4::{prelude::*, u32x4};
+    ///
+    /// let v = u32x4::from([10, 11, 12, 13]);
+    /// let order = u32x4::from([3, 3, 0, 5]);
+    /// assert_eq!(v.permute(order).to_array(), [13, 13, 10, 11]);
+    /// ```
+    #[inline(always)]
+    fn permute(self, order: Self) -> Self {
+        soft::permute(self, order)
+    }
+
     /// One lane of all, to go through as an index.
     #[doc(hidden)]
     #[inline(always)]

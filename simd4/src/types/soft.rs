@@ -1,6 +1,6 @@
 //! Operations made of other operations, for levels that have no instruction for them.
 
-use super::{Lanes, SimdF32, SimdI32, SimdInt};
+use super::{LaneArray, Lanes, SimdF32, SimdI32, SimdInt, SimdU32};
 
 /// [`spec::round_ties_even`](crate::spec::round_ties_even).
 #[inline(always)]
@@ -95,4 +95,17 @@ pub(crate) fn to_u32_fast<V: SimdF32>(x: V) -> V::U32 {
     // From 2^31 on: the rest above it, and its bit.
     let upper = (x - half).to_i32_fast().to_u32() ^ V::U32::splat(s, 1 << 31);
     V::U32::select(x.lt(half), x.to_i32_fast().to_u32(), upper)
+}
+
+/// [`SimdU32::permute`], by way of memory.
+#[inline(always)]
+pub(crate) fn permute<V: SimdU32>(u: V, order: V) -> V {
+    let (lanes, order) = (u.to_array(), order.to_array());
+    V::from_array(
+        u.token(),
+        LaneArray::from_fn(
+            #[inline(always)]
+            |i| lanes.as_ref()[order.as_ref()[i] as usize % V::LANES],
+        ),
+    )
 }

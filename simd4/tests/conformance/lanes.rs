@@ -180,6 +180,25 @@ pub(crate) fn moves<V: Lanes>(s: V::Simd) {
     expect("unzip, odd", odd, &|i| 2 * i + 1);
 }
 
+/// Every lane to every place, in orders that name one lane several times, and lanes that there are not.
+pub(crate) fn permutes<V: SimdF32>(s: V::Simd) {
+    let n = V::LANES as u32;
+    for (start, step) in
+        (0..2 * n).flat_map(|start| [0, 1, 3, n - 1, 1 << 30].map(|step| (start, step)))
+    {
+        let want = |i: usize| start.wrapping_add((i as u32).wrapping_mul(step));
+        let order = V::U32::from_array(s, LaneArray::from_fn(want));
+        let floats = V::iota(s).permute(order);
+        let ints = V::I32::iota(s).permute(order);
+        let unsigned = V::U32::iota(s).permute(order);
+        for i in 0..V::LANES {
+            let want = want(i) % n;
+            let got = (floats.lane(i), ints.lane(i), unsigned.lane(i));
+            assert_eq!(got, (want as f32, want as i32, want), "lane {i}, from {start} by {step}");
+        }
+    }
+}
+
 /// Orders that stand in place, of four and of eight lanes.
 pub(crate) fn swizzles<S: Simd>(s: S) {
     let (four, eight) = (S::f32x4::iota(s), S::u32x8::iota(s));

@@ -71,6 +71,7 @@ fn lanes<S: Simd>(s: S) {
     at_every_width!(s, lanes::memory, i32x4 i32x8 i32x16);
     at_every_width!(s, lanes::memory, u32x4 u32x8 u32x16);
     at_every_width!(s, lanes::gathers, f32x4 f32x8 f32x16);
+    at_every_width!(s, lanes::permutes, f32x4 f32x8 f32x16);
     at_every_width!(s, lanes::moves, f32x4 f32x8 f32x16);
     at_every_width!(s, lanes::moves, i32x4 i32x8 i32x16);
     at_every_width!(s, lanes::moves, u32x4 u32x8 u32x16);

@@ -56,7 +56,8 @@ impl<const N: usize> Wide<N> {
         let (blocks, spheres) = (slots.len(), wide.spheres.len());
         for (leaves, before) in [(of_spheres, blocks), (of_cones, blocks + spheres)] {
             for (node, lane) in leaves {
-                wide.nodes[node].children[lane].0 += (before as u32) << 4;
+                let Child(slots) = wide.nodes[node].child(lane);
+                wide.nodes[node].set_child(lane, Child(slots + ((before as u32) << 4)));
             }
         }
         wide.blocks.resize(blocks, RecordBlock::new(&[]));
@@ -189,8 +190,9 @@ impl<const N: usize> Converter<'_, N> {
                 Subtree::Inner(inner) => Child::node(self.node(open(inner, depth + 1), depth + 1)),
                 Subtree::Leaf(node) => self.leaf(&node, (at, lane)),
             };
-            self.wide.nodes[at].children[lane] = child;
+            self.wide.nodes[at].set_child(lane, child);
         }
+        self.wide.nodes[at].set_order();
         at
     }
 

@@ -11,7 +11,7 @@
 
 use std::ops::Range;
 
-use simd4::{Simd, SimdF32};
+use simd4::{Lanes, Simd, SimdF32, SimdInt, SimdMask, SimdU32};
 
 use crate::bvh::refit::Refit;
 use crate::geom::Aabb;
@@ -25,8 +25,13 @@ use crate::tri::{Method, Record, RecordBlock};
 #[repr(C, align(64))]
 pub struct WideNode<const N: usize> {
     sides: [[[f32; N]; 2]; 3],
-    pub(crate) children: [Child; N],
+    children: [u32; N],
+    order: Order<N>,
 }
+
+/// The lanes of a node's children in the order in which rays of each octant come by them, the last first:
+/// three bits for each octant, the first octant lowest. It is a guess: a better one saves visits.
+type Order<const N: usize> = [u32; N];
 
 const _: () = assert!(size_of::<WideNode<4>>() == 128, "two cache lines");
 const _: () = assert!(size_of::<WideNode<8>>() == 256, "four cache lines");
@@ -35,7 +40,8 @@ impl<const N: usize> WideNode<N> {
     /// No children.
     pub(super) const EMPTY: Self = WideNode {
         sides: [[[f32::INFINITY; N], [f32::NEG_INFINITY; N]]; 3],
-        children: [Child::NONE; N],
+        children: [Child::NONE.0; N],
+        order: [0; N],
     };
 
     pub(super) fn set_box(&mut self, lane: usize, aabb: &Aabb) {
@@ -46,13 +52,64 @@ impl<const N: usize> WideNode<N> {
         }
     }
 
+    /// Guesses the order of the children by the centres of their boxes.
+    pub(super) fn set_order(&mut self) {
+        let centers = self
+            .sides
+            .each_ref()
+            .map(|[low, high]| -> [f32; N] { std::array::from_fn(|lane| low[lane] + high[lane]) });
+        self.order = [0; N];
+        for octant in 0..8 {
+            let [x, y, z] = [0, 1, 2].map(|axis| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 });
+            let along: [f32; N] = std::array::from_fn(|lane| {
+                let [cx, cy, cz] = [centers[0][lane], centers[1][lane], centers[2][lane]];
+                // What has no box comes last.
+                let there = self.children[lane] != Child::NONE.0;
+                if there { cx * x + cy * y + cz * z } else { f32::NEG_INFINITY }
+            });
+            for lane in 0..N {
+                let before = |other: usize| match other < lane {
+                    true => along[other] >= along[lane],
+                    false => along[other] > along[lane],
+                };
+                let rank = (0..N).map(|other| usize::from(before(other))).sum::<usize>();
+                self.order[rank % N] |= (lane as u32) << (3 * octant);
+            }
+        }
+    }
+
+    /// Of the children in the lanes of `mask` those lanes alone, in the order in which rays of an octant
+    /// come by them, the last first; and how many there are.
+    #[inline(always)]
+    pub(crate) fn in_order<V: SimdF32>(
+        &self,
+        s: V::Simd,
+        mask: V::Mask,
+        octant: u32,
+    ) -> (V::U32, usize) {
+        let none = V::U32::splat(s, Child::NONE.0);
+        let children = V::U32::select(mask, V::U32::load(s, &self.children), none);
+        let order = V::U32::load(s, &self.order).shr(3 * octant);
+        let ordered = children.permute(order);
+        let lanes = ordered.ne(none).bitmask() as usize % COMPRESSED.len();
+        let compressed = V::U32::load(s, &COMPRESSED[lanes]);
+        (ordered.permute(compressed), COUNTS[lanes].into())
+    }
+
+    /// The child in a lane.
+    #[inline(always)]
+    pub(crate) fn child(&self, lane: usize) -> Child {
+        Child(self.children[lane & (N - 1)])
+    }
+
+    pub(super) fn set_child(&mut self, lane: usize, child: Child) {
+        self.children[lane] = child.0;
+    }
+
     /// The children and their boxes.
     pub(crate) fn boxes(&self) -> impl Iterator<Item = (Child, Aabb)> {
-        let aabb = |lane: usize| Aabb { axes: self.sides.map(|sides| sides.map(|s| s[lane])) };
-        let lanes = self.children.into_iter().enumerate();
-        lanes
-            .filter(|(_, child)| *child != Child::NONE)
-            .map(move |(lane, child)| (child, aabb(lane)))
+        let lanes = (0..N).map(|lane| (self.child(lane), self.aabb(lane)));
+        lanes.filter(|(child, _)| *child != Child::NONE)
     }
 
     /// The box of one child.
@@ -72,6 +129,35 @@ impl<const N: usize> WideNode<N> {
     }
 }
 
+/// For each mask of eight lanes, or of four, its lanes, and after them the first lane again.
+static COMPRESSED: [[u32; 8]; 256] = {
+    let mut table = [[0; 8]; 256];
+    let mut mask = 0;
+    while mask < 256 {
+        let (mut lane, mut count) = (0, 0);
+        while lane < 8 {
+            if mask >> lane & 1 == 1 {
+                table[mask][count] = lane as u32;
+                count += 1;
+            }
+            lane += 1;
+        }
+        mask += 1;
+    }
+    table
+};
+
+/// How many lanes each mask has: not every level has an instruction for it.
+static COUNTS: [u8; 256] = {
+    let mut table = [0; 256];
+    let mut mask = 0;
+    while mask < 256 {
+        table[mask] = (mask as u32).count_ones() as u8;
+        mask += 1;
+    }
+    table
+};
+
 impl<V: SimdF32, const N: usize> Boxes<V> for WideNode<N> {
     #[inline(always)]
     fn side(&self, s: V::Simd, axis: usize, side: usize) -> V {
@@ -85,10 +171,11 @@ impl<V: SimdF32, const N: usize> Boxes<V> for WideNode<N> {
 ///
 /// In the upper 28 bits the node or the first slot, in the lower 4 the number of slots; 0: a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Child(pub(super) u32);
+pub(crate) struct Child(pub(crate) u32);
 
 impl Child {
-    const NONE: Child = Child(u32::MAX);
+    /// None.
+    pub(crate) const NONE: Child = Child(u32::MAX);
 
     /// The root.
     pub(crate) const ROOT: Child = Child(0);
@@ -152,16 +239,22 @@ impl<const N: usize> Wide<N> {
     /// Sends for what is in these lanes of a node: it is on its way while something else is done.
     #[inline(always)]
     pub(crate) fn prefetch<S: Simd>(&self, s: S, node: &WideNode<N>, mut lanes: u32) {
-        let (nodes, blocks) = (self.nodes.as_ptr(), self.blocks.as_ptr());
         while lanes != 0 {
-            let child = node.children[lanes.trailing_zeros() as usize & (N - 1)];
+            let child = node.child(lanes.trailing_zeros() as usize);
             lanes &= lanes - 1;
-            // Without a branch, which would be a guess; what is not there is not sent for.
-            let first = (child.0 >> 4) as usize;
-            let block = blocks.wrapping_add(first);
-            let node = nodes.wrapping_add(first).cast();
-            s.prefetch(if child.0 & 15 == 0 { node } else { block });
+            self.prefetch_child(s, child);
         }
+    }
+
+    /// Sends for what is in a child.
+    #[inline(always)]
+    pub(crate) fn prefetch_child<S: Simd>(&self, s: S, child: Child) {
+        let (nodes, blocks) = (self.nodes.as_ptr(), self.blocks.as_ptr());
+        // Without a branch, which would be a guess; what is not there is not sent for.
+        let first = (child.0 >> 4) as usize;
+        let block = blocks.wrapping_add(first);
+        let node = nodes.wrapping_add(first).cast();
+        s.prefetch(if child.0 & 15 == 0 { node } else { block });
     }
 
     /// The primitives in slots of a leaf.
@@ -219,7 +312,8 @@ impl<const N: usize> Refit for Wide<N> {
         // Those below a node come after it.
         for i in (0..self.nodes.len()).rev() {
             let mut node = self.nodes[i];
-            for (lane, child) in node.children.into_iter().enumerate() {
+            for lane in 0..N {
+                let child = node.child(lane);
                 if child == Child::NONE {
                     continue;
                 }
@@ -232,6 +326,7 @@ impl<const N: usize> Refit for Wide<N> {
                 };
                 node.set_box(lane, &aabb);
             }
+            node.set_order();
             self.nodes[i] = node;
         }
     }
@@ -253,7 +348,7 @@ pub(super) fn cone(primitives: &Primitives, prim: u32) -> ConeRecord {
 #[cfg(test)]
 mod tests {
     use glam::{Vec3, Vec3Swizzles};
-    use simd4::{Level, Simd, SimdMask, dispatch};
+    use simd4::{Level, Simd, dispatch};
 
     use super::*;
     use crate::bvh::build::Block;
@@ -283,11 +378,12 @@ mod tests {
         let own_boxes: Vec<_> = scene.own_boxes().collect();
         let mut found = vec![0; scene.len()];
         for (at, node) in wide.nodes.iter().enumerate() {
-            for (lane, child) in node.children.iter().enumerate() {
+            for lane in 0..N {
+                let child = node.child(lane);
                 let side = |axis: usize, side: usize| node.sides[axis][side][lane];
                 let aabb = Aabb { axes: [0, 1, 2].map(|axis| [side(axis, 0), side(axis, 1)]) };
                 match child.find() {
-                    _ if *child == Child::NONE => assert_eq!(aabb, Aabb::EMPTY),
+                    _ if child == Child::NONE => assert_eq!(aabb, Aabb::EMPTY),
                     Ok(below) => {
                         assert!(below > at);
                         assert_eq!(aabb.union(&wide.nodes[below].bounds()), aabb);
@@ -315,8 +411,8 @@ mod tests {
                 Wide::<N>::new(&scene, builder.build(&scene, block, &Sequential), &Sequential);
             assert_eq!(looked_through(&wide, &scene), vec![1; scene.len()], "{builder:?}");
             let most = wide.nodes.len() * (N - 1) + 1;
-            let leaves = wide.nodes.iter().flat_map(|node| &node.children);
-            let leaves = leaves.filter(|child| **child != Child::NONE && child.find().is_err());
+            let leaves = wide.nodes.iter().flat_map(|node| (0..N).map(|lane| node.child(lane)));
+            let leaves = leaves.filter(|child| *child != Child::NONE && child.find().is_err());
             assert!(leaves.count() <= most, "{builder:?}: a tree");
 
             let mut moved = scene.clone();

@@ -22,18 +22,16 @@ use std::ops::Range;
 
 use simd4::{Lanes, Simd, SimdF32, SimdMask};
 
+use super::turns::Turns;
 use super::wide::{self, Stack};
 use crate::Counters;
 use crate::bvh::layout::{Child, Wide, WideNode};
-use crate::packet::{Ask, Buckets, Chunk, Hits, LARGE, LargePacket, Rays, Single};
+use crate::packet::{Ask, Chunk, Hits, LARGE, LargePacket, Rays, Single};
 use crate::quadric::{cone, sphere};
 use crate::slab::pyramid::{Culling, Sides};
 use crate::slab::{interval, robust};
 use crate::tri::edge_volumes::EdgeVolumes;
 use crate::tri::{self, BlockLanes, OwnBoxLanes, Watertight};
-
-/// From so many lanes on it pays to sort rays.
-const SORTED: usize = 16;
 
 /// The most triangles of a block times the most registers.
 const MAX_PAIRS: usize = 8 * LARGE / 4;
@@ -52,7 +50,7 @@ pub(crate) struct Batch<'a> {
 /// dropped, no operation of a level needs a way out, and the compiler has less to do.
 pub(crate) struct Scratch {
     chunk: Box<Chunk>,
-    buckets: Buckets,
+    turns: Turns,
     large: Vec<Entry>,
     single: Stack,
 }
@@ -72,15 +70,14 @@ impl Scratch {
     pub(crate) fn new<const N: usize>(wide: &Wide<N>) -> Self {
         let entry = Entry { child: Child::ROOT, enter: 0.0, rays: 0 };
         let large = vec![entry; wide.depth() * (N - 1) + 1];
-        let (chunk, buckets) = (Box::new(Chunk::default()), Buckets::default());
-        Scratch { chunk, buckets, large, single: Stack::new(wide) }
+        let (chunk, turns) = (Box::new(Chunk::default()), Turns::new(wide));
+        Scratch { chunk, turns, large, single: Stack::new(wide) }
     }
 }
 
 /// Finds what a batch of rays hits. `B` has a lane for each child.
 ///
-/// Neighbours go together as long as they are alike. Others go one by one or, where a register holds
-/// many, wait in [`Buckets`] for those of their class, wherever in the batch they are.
+/// Neighbours go together as long as they are alike. Others take [turns](super::turns).
 #[inline(always)]
 pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
     s: S,
@@ -91,36 +88,35 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
 ) {
     let Batch { rays, most, any, hits } = batch;
     let mut done = C::default();
-    let Scratch { chunk, buckets, large, single } = scratch;
+    let Scratch { chunk, turns, large, single } = scratch;
     let mut first = 0;
-    loop {
-        let mut mixed = false;
-        let waited = buckets.take(rays, most, first >= rays.len());
-        if waited {
-            chunk.load::<S::f32s>(s, buckets.rays(), 0, most);
-        } else if first < rays.len() {
-            chunk.load::<S::f32s>(s, rays, first, most);
-            first += most;
-            mixed = chunk.is_mixed();
-            if mixed && S::LANES >= SORTED {
-                chunk.store(hits, first - most);
-                buckets.put(chunk, first - most);
-                continue;
+    while first < rays.len() {
+        chunk.load::<S::f32s>(s, rays, first, most);
+        if chunk.is_mixed() {
+            chunk.store(hits, first);
+            let mut left = chunk.take_left();
+            done.count(|stats| stats.rays_alone += u64::from(left.count_ones()));
+            while left != 0 {
+                while turns.full() {
+                    turns.round::<B, N>(s, wide, any, hits, &mut done);
+                }
+                let ray = left.trailing_zeros() as usize;
+                left &= left - 1;
+                turns.put(wide, chunk.alone(ray), chunk.tmax(ray), first + ray);
             }
         } else {
-            break;
+            while let Some(class) = chunk.next_class() {
+                let packet = LargePacket::new(chunk, class, any);
+                let (large, single, stats) = (&mut **large, &mut *single, &mut done);
+                Traversal { s, wide, large, single, packet, alone: 0, stats }
+                    .trace::<B>(class.rays);
+            }
+            chunk.store(hits, first);
         }
-        while let Some(class) = chunk.next_class() {
-            let packet = LargePacket::new(chunk, class, any);
-            let (large, single, stats) = (&mut **large, &mut *single, &mut done);
-            Traversal { s, wide, large, single, packet, alone: 0, stats }
-                .trace::<B>(class.rays, mixed);
-        }
-        if waited {
-            chunk.scatter(hits, buckets.places());
-        } else {
-            chunk.store(hits, first - most);
-        }
+        first += most;
+    }
+    while !turns.empty() {
+        turns.round::<B, N>(s, wide, any, hits, &mut done);
     }
     *stats += done;
 }
@@ -138,12 +134,9 @@ pub(super) struct Traversal<'a, S: Simd, C: Counters, const N: usize> {
 }
 
 impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
-    /// Finds what those rays hit; they go `alone`, or as long as they stay together.
+    /// Finds what those rays hit.
     #[inline(always)]
-    fn trace<B: SimdF32<Simd = S>>(&mut self, rays: u64, alone: bool) {
-        if alone {
-            return self.one_by_one::<B>(Child::ROOT, rays);
-        }
+    fn trace<B: SimdF32<Simd = S>>(&mut self, rays: u64) {
         let beam = self.packet.beam::<S::f32s>(self.s);
         if beam.has_apex() {
             self.run::<B, Pyramid>(&Culling::new(&beam), rays);
@@ -175,7 +168,7 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
                     while lanes != 0 {
                         let lane = lanes.trailing_zeros() as usize & (N - 1);
                         lanes &= lanes - 1;
-                        let (child, enter) = (node.children[lane], enter.as_ref()[lane]);
+                        let (child, enter) = (node.child(lane), enter.as_ref()[lane]);
                         // The nearer the higher.
                         let mut at = top;
                         while at > first && self.large[at - 1].enter < enter {

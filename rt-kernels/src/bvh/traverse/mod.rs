@@ -4,6 +4,7 @@ mod compared;
 pub mod heap;
 pub(crate) mod large;
 pub mod skip;
+pub(crate) mod turns;
 pub mod wide;
 
 pub use compared::{Compared, catalogue};

@@ -19,6 +19,8 @@
 //! Bounding Volume Hierarchies for Fast SIMD Ray Tracing of Incoherent Rays", 2008. Deviation: the
 //! children of a node are all sorted, by distance.
 
+use std::ops::Range;
+
 use simd4::{SimdF32, SimdMask};
 
 use crate::bvh::layout::{Child, Wide, WideNode};
@@ -97,19 +99,7 @@ pub(crate) fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
                 }
             }
             Err(slots) => {
-                for block in wide.blocks(&slots) {
-                    stats.count(|stats| stats.triangle_tests += N as u64);
-                    let triangles = BlockLanes::new(block, 0);
-                    tri::intersect::<Watertight, V, F, _, _>(s, &triangles, packet, frame, query);
-                }
-                for record in wide.spheres(&slots) {
-                    stats.count(|stats| stats.sphere_tests += 1);
-                    sphere::intersect(s, record, packet, frame, query);
-                }
-                for record in wide.cones(&slots) {
-                    stats.count(|stats| stats.cone_tests += 1);
-                    cone::intersect(s, record, packet, frame, query);
-                }
+                leaf(s, wide, &slots, packet, frame, query, stats);
                 if query.done(s) {
                     break;
                 }
@@ -129,6 +119,32 @@ pub(crate) fn traverse<V: SimdF32, F: Frame<V>, const N: usize>(
     stats.count(|stats| stats.node_visits += visits);
     stats.count(|stats| stats.active_rays += visits);
     stats.count(|stats| stats.box_tests += visits * N as u64);
+}
+
+/// Tests the ray against the primitives in some slots.
+#[inline(always)]
+pub(super) fn leaf<V: SimdF32, F: Frame<V>, const N: usize>(
+    s: V::Simd,
+    wide: &Wide<N>,
+    slots: &Range<usize>,
+    packet: &Packet<V>,
+    frame: &F,
+    query: &mut Single<'_, V>,
+    stats: &mut impl Counters,
+) {
+    for block in wide.blocks(slots) {
+        stats.count(|stats| stats.triangle_tests += N as u64);
+        let triangles = BlockLanes::new(block, 0);
+        tri::intersect::<Watertight, V, F, _, _>(s, &triangles, packet, frame, query);
+    }
+    for record in wide.spheres(slots) {
+        stats.count(|stats| stats.sphere_tests += 1);
+        sphere::intersect(s, record, packet, frame, query);
+    }
+    for record in wide.cones(slots) {
+        stats.count(|stats| stats.cone_tests += 1);
+        cone::intersect(s, record, packet, frame, query);
+    }
 }
 
 /// Of the children in these lanes the nearest; the others are put on the stack, the nearer the
@@ -165,5 +181,5 @@ fn take<const N: usize>(node: &WideNode<N>, lanes: &mut u32, enter: &[f32]) -> E
     // The mask tells the compiler that the lane is within the node.
     let lane = lanes.trailing_zeros() as usize & (N - 1);
     *lanes &= *lanes - 1;
-    Entry { child: node.children[lane], enter: enter[lane] }
+    Entry { child: node.child(lane), enter: enter[lane] }
 }

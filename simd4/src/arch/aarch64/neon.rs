@@ -415,7 +415,18 @@ impl SimdI32 for i32x4 {
     }
 }
 
-impl SimdU32 for u32x4 {}
+impl SimdU32 for u32x4 {
+    #[inline(always)]
+    fn permute(self, order: Self) -> Self {
+        proven!({
+            // Of each lane's number the numbers of its four bytes.
+            let lanes = vandq_u32(order.0, vdupq_n_u32(3));
+            let bytes = vmlaq_u32(vdupq_n_u32(0x0302_0100), lanes, vdupq_n_u32(0x0404_0404));
+            let moved = vqtbl1q_u8(vreinterpretq_u8_u32(self.0), vreinterpretq_u8_u32(bytes));
+            u32x4(vreinterpretq_u32_u8(moved), self.1)
+        })
+    }
+}
 
 // mask
 

@@ -398,7 +398,18 @@ impl SimdI32 for i32x4 {
     }
 }
 
-impl SimdU32 for u32x4 {}
+impl SimdU32 for u32x4 {
+    #[inline(always)]
+    fn permute(self, order: Self) -> Self {
+        proven!({
+            // Of each lane's number the numbers of its four bytes.
+            let lanes = v128_and(order.0, i32x4_splat(3));
+            let bytes =
+                i32x4_add(i32x4_mul(lanes, i32x4_splat(0x0404_0404)), i32x4_splat(0x0302_0100));
+            u32x4(i8x16_swizzle(self.0, bytes), self.1)
+        })
+    }
+}
 
 // mask
 

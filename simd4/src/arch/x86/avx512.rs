@@ -90,6 +90,12 @@ impl Xmm for Avx512 {
         xmm::u32x4(proven!(_mm_cvttps_epu32(x.0)), self)
     }
 
+    #[inline(always)]
+    fn permute(self, u: xmm::u32x4<Self>, order: xmm::u32x4<Self>) -> xmm::u32x4<Self> {
+        let lanes = proven!(_mm_permutevar_ps(_mm_castsi128_ps(u.0), order.0));
+        xmm::u32x4(proven!(_mm_castps_si128(lanes)), self)
+    }
+
     const FUSED: bool = true;
 
     #[inline(always)]

@@ -91,6 +91,10 @@ impl Xmm for Sse2 {
         })
     }
     #[inline(always)]
+    fn permute(self, u: xmm::u32x4<Self>, order: xmm::u32x4<Self>) -> xmm::u32x4<Self> {
+        soft::permute(u, order)
+    }
+    #[inline(always)]
     fn round_ties_even(self, x: xmm::f32x4<Self>) -> xmm::f32x4<Self> {
         soft::round_ties_even(x)
     }

@@ -47,6 +47,19 @@ pub trait Xmm: Simd {
         proven!(_mm_mullo_epi32(a, b))
     }
     #[inline(always)]
+    fn permute(self, u: u32x4<Self>, order: u32x4<Self>) -> u32x4<Self> {
+        proven!({
+            // Of each lane's number the numbers of its four bytes.
+            let lanes = _mm_and_si128(order.0, _mm_set1_epi32(3));
+            let lanes = _mm_shuffle_epi8(
+                lanes,
+                _mm_set_epi8(12, 12, 12, 12, 8, 8, 8, 8, 4, 4, 4, 4, 0, 0, 0, 0),
+            );
+            let bytes = _mm_or_si128(_mm_slli_epi32::<2>(lanes), _mm_set1_epi32(0x0302_0100));
+            u32x4(_mm_shuffle_epi8(u.0, bytes), self)
+        })
+    }
+    #[inline(always)]
     fn round_ties_even(self, x: f32x4<Self>) -> f32x4<Self> {
         f32x4(proven!(_mm_round_ps::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(x.0)), self)
     }
@@ -511,6 +524,10 @@ impl<L: Xmm> SimdI32 for i32x4<L> {
 }
 
 impl<L: Xmm> SimdU32 for u32x4<L> {
+    #[inline(always)]
+    fn permute(self, order: Self) -> Self {
+        self.1.permute(self, order)
+    }
     /// Two lanes at a time come out of the register.
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]

@@ -518,7 +518,12 @@ impl<L: Ymm> SimdI32 for i32x8<L> {
     }
 }
 
-impl<L: Ymm> SimdU32 for u32x8<L> {}
+impl<L: Ymm> SimdU32 for u32x8<L> {
+    #[inline(always)]
+    fn permute(self, order: Self) -> Self {
+        u32x8(proven!(_mm256_permutevar8x32_epi32(self.0, order.0)), self.1)
+    }
+}
 
 /// Two 128-bit registers to one and back.
 macro_rules! wide {

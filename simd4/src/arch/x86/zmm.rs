@@ -392,7 +392,12 @@ impl<L: Zmm> SimdI32 for i32x16<L> {
     }
 }
 
-impl<L: Zmm> SimdU32 for u32x16<L> {}
+impl<L: Zmm> SimdU32 for u32x16<L> {
+    #[inline(always)]
+    fn permute(self, order: Self) -> Self {
+        u32x16(proven!(_mm512_permutexvar_epi32(order.0, self.0)), self.1)
+    }
+}
 
 /// Two 256-bit registers to one and back.
 macro_rules! wide {
