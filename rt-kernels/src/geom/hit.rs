@@ -13,3 +13,11 @@ pub struct Hit {
     /// On a triangle, the weight of its third corner; 0 on a sphere.
     pub v: f32,
 }
+
+impl Hit {
+    /// Whether it is before another of the same ray; of equal distances the lower number is.
+    #[inline(always)]
+    pub(crate) fn wins(&self, other: &Hit) -> bool {
+        self.t < other.t || (self.t == other.t && self.prim < other.prim)
+    }
+}

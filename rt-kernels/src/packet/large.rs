@@ -172,10 +172,10 @@ impl Chunk {
         }
     }
 
-    /// The greatest `t` that matters to a ray which has found nothing.
+    /// What a ray has found.
     #[inline(always)]
-    pub(crate) fn tmax(&self, ray: usize) -> f32 {
-        self.hits.t[ray % LARGE]
+    pub(crate) fn hit(&self, ray: usize) -> Hit {
+        self.hits.get(ray)
     }
 
     /// Takes the rays that are in no class yet.
@@ -387,10 +387,24 @@ impl<'a> LargePacket<'a> {
         get(s, &self.chunk.hits.t, g * V::LANES)
     }
 
+    /// One of the rays, and what it has found.
+    #[inline(always)]
+    pub(crate) fn alone(&self, ray: usize) -> (Alone, Hit) {
+        (self.chunk.alone(ray), self.chunk.hit(ray))
+    }
+
+    /// Takes what a ray has found by itself, if it is better than what it has.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, ray: usize, hit: Hit) {
+        if hit.wins(&self.chunk.hit(ray)) {
+            self.set_hit(ray, hit);
+        }
+    }
+
     /// What a ray has found.
     #[inline(always)]
     pub(crate) fn hit(&self, ray: usize) -> Hit {
-        self.chunk.hits.get(ray)
+        self.chunk.hit(ray)
     }
 
     /// States what a ray has found.

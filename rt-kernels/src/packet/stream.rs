@@ -137,6 +137,15 @@ impl Hits {
         (self.t[i], self.u[i], self.v[i], self.prim[i]) = (hit.t, hit.u, hit.v, hit.prim);
     }
 
+    /// Takes what a ray has found later, if it is better than what it has.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, i: usize, hit: Hit) {
+        let (t, prim) = (self.t[i], self.prim[i]);
+        if hit.wins(&Hit { t, prim, u: 0.0, v: 0.0 }) {
+            self.set(i, hit);
+        }
+    }
+
     /// Makes room for `n` rays.
     pub(crate) fn resize(&mut self, n: usize) {
         self.t.resize(n, 0.0);

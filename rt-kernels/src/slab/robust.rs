@@ -52,10 +52,23 @@ impl<C: Reciprocal> BoxKernel for Robust<C> {
         frame: &F,
         limit: V,
     ) -> Option<Crossing<V>> {
-        let [enter, exit] = may_pass(s, boxes, packet, frame, [packet.tmin, limit]);
-        let mask = enter.le(exit);
-        mask.any().then_some(Crossing { mask, enter })
+        let crossing = crossing(s, boxes, packet, frame, limit);
+        crossing.mask.any().then_some(crossing)
     }
+}
+
+/// The lanes whose ray may meet something in the box with `tmin <= t <= limit`, as the kernel's test, and
+/// where they enter it: without a branch for that it is none.
+#[inline(always)]
+pub fn crossing<V: SimdF32, F: Frame<V>, B: Boxes<V>>(
+    s: V::Simd,
+    boxes: &B,
+    packet: &Packet<V>,
+    frame: &F,
+    limit: V,
+) -> Crossing<V> {
+    let [enter, exit] = may_pass(s, boxes, packet, frame, [packet.tmin, limit]);
+    Crossing { mask: enter.le(exit), enter }
 }
 
 /// The lanes whose ray may meet something in the box with `tmin <= t <= limit`.

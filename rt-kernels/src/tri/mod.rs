@@ -106,6 +106,22 @@ pub fn intersect<K: TriangleKernel, V: SimdF32, F: Frame<V>, R: Records<V>, Q: Q
     }
 }
 
+/// Holds hits, which a kernel has [found](Found) without, in their triangles' own boxes, and records them.
+#[inline(always)]
+pub(crate) fn hold<V: SimdF32, F: Frame<V>, R: Records<V>, Q: Query<V>>(
+    s: V::Simd,
+    records: &R,
+    packet: &Packet<V>,
+    frame: &F,
+    query: &mut Q,
+    found: Found<V>,
+) {
+    let held = own_box::held(s, &records.own_boxes(s), packet, frame, query.limit(), found);
+    if held.mask.any() {
+        query.record(s, held.mask, records.prim(s), held.t, held.u, held.v);
+    }
+}
+
 /// As [`intersect`], with hits held in the triangle's own box, which this is.
 #[inline(always)]
 pub fn intersect_in<K: TriangleKernel, V: SimdF32, F: Frame<V>, Q: Query<V>>(

@@ -70,8 +70,9 @@ impl Record {
 
 /// Records as a kernel sees them: one in all lanes (`&Record`) or each lane its own ([`BlockLanes`]).
 pub trait Records<V: SimdF32> {
-    /// Whether each lane has its own.
-    const EACH_LANE: bool = false;
+    /// Whether a kernel is to be done early where no lane can hit. If not, it goes on: where the branch
+    /// would be a guess, that takes less time.
+    const EARLY_OUT: bool = true;
 
     /// Where the records' axes differ, their choice does.
     type Axes: Axes<V>;
@@ -255,9 +256,10 @@ impl<V: SimdF32, B: SimdF32, const N: usize> Records<V> for OneOf<'_, B, N> {
     }
 }
 
-/// Some neighbours in a block, as many as a vector has lanes.
+/// Some neighbours in a block, as many as a vector has lanes; with or without an early
+/// [way out](Records::EARLY_OUT).
 #[derive(Clone, Copy, Debug)]
-pub struct BlockLanes<'a, const N: usize = 16> {
+pub struct BlockLanes<'a, const N: usize = 16, const EARLY_OUT: bool = true> {
     block: &'a RecordBlock<N>,
     first: usize,
 }
@@ -269,6 +271,15 @@ impl<'a, const N: usize> BlockLanes<'a, N> {
         BlockLanes { block, first }
     }
 
+    /// The same, to be tested to the end.
+    #[inline(always)]
+    pub(crate) fn without_early_out(self) -> BlockLanes<'a, N, false> {
+        let BlockLanes { block, first } = self;
+        BlockLanes { block, first }
+    }
+}
+
+impl<const N: usize, const EARLY_OUT: bool> BlockLanes<'_, N, EARLY_OUT> {
     /// The lanes of some numbers of the block.
     #[inline(always)]
     fn load<V: Lanes>(&self, s: V::Simd, from: &[V::Elem; N]) -> V {
@@ -277,8 +288,10 @@ impl<'a, const N: usize> BlockLanes<'a, N> {
     }
 }
 
-impl<V: SimdF32, const N: usize> Records<V> for BlockLanes<'_, N> {
-    const EACH_LANE: bool = true;
+impl<V: SimdF32, const N: usize, const EARLY_OUT: bool> Records<V>
+    for BlockLanes<'_, N, EARLY_OUT>
+{
+    const EARLY_OUT: bool = EARLY_OUT;
 
     type Axes = OwnAxes<V::Mask>;
     type Boxes = OwnBoxes<V>;

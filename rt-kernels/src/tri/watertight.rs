@@ -102,8 +102,7 @@ impl<C: Reciprocal, A: Rounding, const EXACT_ZEROS: bool, const OWN_BOX: bool> T
             A::difference(bx, ay, by, ax),
         ];
         let mut inside = same_signs(s, edges);
-        // Of triangles in lanes, one or two of which the ray passes, the branch would be a guess.
-        if !R::EACH_LANE && inside.none() {
+        if R::EARLY_OUT && inside.none() {
             return None;
         }
         if EXACT_ZEROS {

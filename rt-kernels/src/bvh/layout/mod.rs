@@ -7,5 +7,5 @@ mod wide;
 
 pub(crate) use skip_array::MAX_SLOTS;
 pub use skip_array::{Node, SkipArray};
-pub(crate) use wide::Child;
+pub(crate) use wide::{Child, without_gaps};
 pub use wide::{Wide, WideNode};

@@ -78,22 +78,22 @@ impl<const N: usize> WideNode<N> {
         }
     }
 
-    /// Of the children in the lanes of `mask` those lanes alone, in the order in which rays of an octant
-    /// come by them, the last first; and how many there are.
+    /// The children in the lanes of `mask`, without gaps, in the order in which rays of an octant come by
+    /// them, the last first; where each is entered, by the same order of `enter`; and how many there are.
     #[inline(always)]
     pub(crate) fn in_order<V: SimdF32>(
         &self,
         s: V::Simd,
         mask: V::Mask,
+        enter: V,
         octant: u32,
-    ) -> (V::U32, usize) {
+    ) -> (V::U32, V, usize) {
         let none = V::U32::splat(s, Child::NONE.0);
         let children = V::U32::select(mask, V::U32::load(s, &self.children), none);
         let order = V::U32::load(s, &self.order).shr(3 * octant);
-        let ordered = children.permute(order);
-        let lanes = ordered.ne(none).bitmask() as usize % COMPRESSED.len();
-        let compressed = V::U32::load(s, &COMPRESSED[lanes]);
-        (ordered.permute(compressed), COUNTS[lanes].into())
+        let (children, enter) = (children.permute(order), enter.permute(order));
+        let (order, count) = without_gaps::<V>(s, children.ne(none).bitmask());
+        (children.permute(order), enter.permute(order), count)
     }
 
     /// The child in a lane.
@@ -127,6 +127,13 @@ impl<const N: usize> WideNode<N> {
         let greatest = |lanes: &[f32; N]| lanes.iter().copied().fold(f32::NEG_INFINITY, f32::max);
         Aabb { axes: self.sides.each_ref().map(|[low, high]| [least(low), greatest(high)]) }
     }
+}
+
+/// The order that puts these lanes first, and how many they are.
+#[inline(always)]
+pub(crate) fn without_gaps<V: SimdF32>(s: V::Simd, lanes: u32) -> (V::U32, usize) {
+    let lanes = lanes as usize % COMPRESSED.len();
+    (V::U32::load(s, &COMPRESSED[lanes]), COUNTS[lanes].into())
 }
 
 /// For each mask of eight lanes, or of four, its lanes, and after them the first lane again.

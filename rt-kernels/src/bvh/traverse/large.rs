@@ -23,7 +23,7 @@ use std::ops::Range;
 use simd4::{Lanes, Simd, SimdF32, SimdMask};
 
 use super::turns::Turns;
-use super::wide::{self, Stack};
+use super::wide;
 use crate::Counters;
 use crate::bvh::layout::{Child, Wide, WideNode};
 use crate::packet::{Ask, Chunk, Hits, LARGE, LargePacket, Rays, Single};
@@ -52,7 +52,6 @@ pub(crate) struct Scratch {
     chunk: Box<Chunk>,
     turns: Turns,
     large: Vec<Entry>,
-    single: Stack,
 }
 
 /// A child that is still to be visited.
@@ -71,7 +70,7 @@ impl Scratch {
         let entry = Entry { child: Child::ROOT, enter: 0.0, rays: 0 };
         let large = vec![entry; wide.depth() * (N - 1) + 1];
         let (chunk, turns) = (Box::new(Chunk::default()), Turns::new(wide));
-        Scratch { chunk, turns, large, single: Stack::new(wide) }
+        Scratch { chunk, turns, large }
     }
 }
 
@@ -88,7 +87,7 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
 ) {
     let Batch { rays, most, any, hits } = batch;
     let mut done = C::default();
-    let Scratch { chunk, turns, large, single } = scratch;
+    let Scratch { chunk, turns, large } = scratch;
     let mut first = 0;
     while first < rays.len() {
         chunk.load::<S::f32s>(s, rays, first, most);
@@ -98,17 +97,19 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
             done.count(|stats| stats.rays_alone += u64::from(left.count_ones()));
             while left != 0 {
                 while turns.full() {
-                    turns.round::<B, N>(s, wide, any, hits, &mut done);
+                    take(turns.round::<B, N>(s, wide, any, &mut done), turns, hits);
                 }
                 let ray = left.trailing_zeros() as usize;
                 left &= left - 1;
-                turns.put(wide, chunk.alone(ray), chunk.tmax(ray), first + ray);
+                turns.put(Child::ROOT, chunk.alone(ray), chunk.hit(ray), first + ray);
             }
         } else {
             while let Some(class) = chunk.next_class() {
                 let packet = LargePacket::new(chunk, class, any);
-                let (large, single, stats) = (&mut **large, &mut *single, &mut done);
-                Traversal { s, wide, large, single, packet, alone: 0, stats }
+                let (large, turns, hits, stats) =
+                    (&mut **large, &mut *turns, &mut *hits, &mut done);
+                let (alone, on_way) = (0, 0);
+                Traversal { s, wide, large, turns, packet, first, hits, alone, on_way, stats }
                     .trace::<B>(class.rays);
             }
             chunk.store(hits, first);
@@ -116,9 +117,19 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
         first += most;
     }
     while !turns.empty() {
-        turns.round::<B, N>(s, wide, any, hits, &mut done);
+        take(turns.round::<B, N>(s, wide, any, &mut done), turns, hits);
     }
     *stats += done;
+}
+
+/// Takes what rays have found that are done with their turns, each a bit.
+#[inline(always)]
+fn take(mut done: u32, turns: &Turns, hits: &mut Hits) {
+    while done != 0 {
+        let (place, hit) = turns.found(done.trailing_zeros());
+        done &= done - 1;
+        hits.take(place, hit);
+    }
 }
 
 /// Rays of one class on their way through a hierarchy.
@@ -126,10 +137,15 @@ pub(super) struct Traversal<'a, S: Simd, C: Counters, const N: usize> {
     pub(super) s: S,
     pub(super) wide: &'a Wide<N>,
     large: &'a mut [Entry],
-    single: &'a mut Stack,
+    turns: &'a mut Turns,
     pub(super) packet: LargePacket<'a>,
-    /// The rays that have gone on by themselves.
+    /// The first ray's place in the batch.
+    first: usize,
+    /// What is found of rays of chunks before, which are still taking turns.
+    hits: &'a mut Hits,
+    /// The rays that have gone on by themselves, and those that are on their way.
     alone: u64,
+    on_way: u64,
     pub(super) stats: &'a mut C,
 }
 
@@ -149,14 +165,16 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     #[inline(always)]
     fn run<B: SimdF32<Simd = S>, W: Way>(&mut self, culling: &Culling, rays: u64) {
         let wide = self.wide;
+        let few = W::FEW.min(rays.count_ones() / 2);
         let mut next = Entry { child: Child::ROOT, enter: 0.0, rays };
         let mut top = 0;
         loop {
             let (rays, limit) = self.active(&next);
-            let found = next.child.find();
-            let few = if found.is_ok() { W::FEW } else { W::FEW_IN_LEAF };
-            match found {
-                _ if rays.count_ones() <= few => self.one_by_one::<B>(next.child, rays),
+            match next.child.find() {
+                Ok(_) if rays.count_ones() <= few => self.one_by_one::<B>(next.child, rays),
+                Err(slots) if rays.count_ones() <= W::FEW_IN_LEAF => {
+                    self.leaf_one_by_one::<B>(&slots, rays);
+                }
                 Err(slots) => self.leaf::<B>(culling, &slots, rays),
                 Ok(node) => {
                     let Some(node) = wide.nodes().get(node) else { break };
@@ -295,9 +313,28 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
         }
     }
 
-    /// Rays go on from a child, each by itself.
+    /// Rays go on from a child, each by itself, while it is others' turn too.
     #[inline(always)]
     fn one_by_one<B: SimdF32<Simd = S>>(&mut self, child: Child, mut rays: u64) {
+        let new = rays & !self.alone;
+        self.alone |= rays;
+        self.stats.count(|stats| stats.rays_alone += u64::from(new.count_ones()));
+        while rays != 0 {
+            let ray = rays.trailing_zeros() as usize;
+            // What it finds on one way spares it others.
+            while self.turns.full() || self.on_way >> ray & 1 == 1 {
+                self.round::<B>();
+            }
+            rays &= rays - 1;
+            self.on_way |= 1 << ray;
+            let (alone, hit) = self.packet.alone(ray);
+            self.turns.put(child, alone, hit, self.first + ray);
+        }
+    }
+
+    /// Tests rays against the primitives of a leaf one by one.
+    #[inline(always)]
+    fn leaf_one_by_one<B: SimdF32<Simd = S>>(&mut self, slots: &Range<usize>, mut rays: u64) {
         let s = self.s;
         let new = rays & !self.alone;
         self.alone |= rays;
@@ -308,9 +345,26 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
             let (packet, frame) = self.packet.ray::<B>(s, ray);
             let ask = if self.packet.any() { Ask::Any } else { Ask::Closest };
             let mut query = Single::from_hit(s, self.packet.hit(ray), ask);
-            let (stack, stats) = (&mut *self.single, &mut *self.stats);
-            wide::traverse(s, self.wide, stack, child, &packet, &frame, &mut query, stats);
+            wide::leaf(s, self.wide, slots, &packet, &frame, &mut query, self.stats);
             self.packet.set_hit(ray, query.hit());
+        }
+    }
+
+    /// All rays by themselves have their turn.
+    #[inline(always)]
+    fn round<B: SimdF32<Simd = S>>(&mut self) {
+        let any = self.packet.any();
+        let mut done = self.turns.round::<B, N>(self.s, self.wide, any, self.stats);
+        while done != 0 {
+            let (place, hit) = self.turns.found(done.trailing_zeros());
+            done &= done - 1;
+            match place.checked_sub(self.first) {
+                Some(ray) => {
+                    self.on_way &= !(1 << ray);
+                    self.packet.take(ray, hit);
+                }
+                None => self.hits.take(place, hit),
+            }
         }
     }
 }
@@ -358,7 +412,7 @@ trait Way {
 struct Pyramid;
 
 impl Way for Pyramid {
-    const FEW: u32 = 2;
+    const FEW: u32 = 4;
     const FEW_IN_LEAF: u32 = 12;
 
     type Seen<B: SimdF32> = Sides<B>;
