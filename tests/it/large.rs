@@ -1,7 +1,8 @@
-//! What is large packets' own: rays of one origin, filtered together, and rays that wait for others.
+//! What is large packets' own: rays of one origin, filtered together, and rays that wait for others or take turns.
 
 use glam::Vec3;
 use proptest::prelude::*;
+use rt_kernels::geom::Sphere;
 use rt_kernels::{Accelerator, Brute, Bvh, Exec, Hits, KdBuilder, KdPlan, KdTree, Layout};
 use rt_kernels::{PacketSize, Plan, Primitives, Ray, Rays, Sequential, Stats};
 use rt_tests::random::Random;
@@ -75,6 +76,26 @@ fn bundles_hit_what_their_rays_hit() {
         }
         one_answer(&scene, &rays);
     });
+}
+
+/// Chunks of rays that go anywhere, which take turns, and between them chunks that go together: what rays
+/// have found goes to their places, whoever is on the way when they are done.
+#[test]
+fn chunks_of_either_kind_keep_apart() {
+    let triangles = Mesh::icosphere(4).primitives().triangles;
+    let spheres = (0..9).map(|i| Sphere { center: Vec3::X * i as f32 * 0.3, radius: 0.1 });
+    let scene = Primitives { triangles, spheres: spheres.collect(), ..Primitives::default() };
+    let mut random = Random::new(11);
+    let mut point = move || Vec3::new(random.signed(), random.signed(), random.signed());
+    for chunks in 1..7 {
+        let rays: Rays = (0..64 * chunks + 7)
+            .map(|i| match i / 64 % 2 {
+                0 => aim::at(point() * 1.5, point()),
+                _ => aim::at(Vec3::new(0.3, 0.2, 5.0), point() * 0.7),
+            })
+            .collect();
+        one_answer(&scene, &rays);
+    }
 }
 
 fn any_seed() -> impl Strategy<Value = u64> {

@@ -355,7 +355,7 @@ pub(super) fn cone(primitives: &Primitives, prim: u32) -> ConeRecord {
 #[cfg(test)]
 mod tests {
     use glam::{Vec3, Vec3Swizzles};
-    use simd4::{Level, Simd, dispatch};
+    use simd4::{LaneArray, Level, Simd, dispatch};
 
     use super::*;
     use crate::bvh::build::Block;
@@ -436,6 +436,59 @@ mod tests {
     fn every_primitive_is_in_a_leaf_and_every_box_in_its_node() {
         once_each::<4>();
         once_each::<8>();
+    }
+
+    /// In each of some masks and each octant: every lane of the mask once, the last first, and with it where
+    /// it is entered.
+    #[inline(always)]
+    fn ordered<V: SimdF32, const N: usize>(s: V::Simd, wide: &Wide<N>) {
+        let enter = V::iota(s);
+        for node in &wide.nodes {
+            let there = (0..N).filter(|&lane| node.child(lane) != Child::NONE);
+            let there = there.fold(0, |lanes, lane| lanes | 1_u32 << lane);
+            for (octant, some) in
+                (0..8).flat_map(|octant| [255, 0, 0x5a, 0x81, 4].map(|m| (octant, m)))
+            {
+                let lanes = there & some;
+                let mask =
+                    V::Mask::from_array(s, LaneArray::from_fn(|lane| lanes >> lane & 1 == 1));
+                let (children, enters, count) = node.in_order::<V>(s, mask, enter, octant);
+                assert_eq!(count, lanes.count_ones() as usize);
+                let (mut seen, mut before) = (0, f32::INFINITY);
+                for i in 0..count {
+                    let lane = enters.lane(i) as usize;
+                    assert_eq!(Child(children.lane(i)), node.child(lane));
+                    seen |= 1 << lane;
+                    let sides = node.aabb(lane).axes;
+                    let along: f32 = (0..3)
+                        .map(|axis| {
+                            let center = sides[axis][0] + sides[axis][1];
+                            if octant >> axis & 1 == 1 { -center } else { center }
+                        })
+                        .sum();
+                    assert!(along <= before + 1e-5, "octant {octant}: {along} after {before}");
+                    before = along;
+                }
+                assert_eq!(seen, lanes);
+            }
+        }
+    }
+
+    #[test]
+    fn children_come_in_the_order_of_their_centres() {
+        let scene = heap();
+        let tree = || Builder::BinnedSah.build(&scene, Block::ONE, &Sequential);
+        let four = Wide::<4>::new(&scene, tree(), &Sequential);
+        let eight = Wide::<8>::new(&scene, tree(), &Sequential);
+        assert!(four.nodes.len() > 100 && eight.nodes.len() > 50);
+        #[inline(always)]
+        fn both<S: Simd>(s: S, four: &Wide<4>, eight: &Wide<8>) {
+            ordered::<S::f32x4, 4>(s, four);
+            ordered::<S::f32x8, 8>(s, eight);
+        }
+        for level in Level::available() {
+            dispatch!(level, s => both(s, &four, &eight));
+        }
     }
 
     #[inline(always)]

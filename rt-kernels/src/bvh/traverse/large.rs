@@ -4,7 +4,8 @@
 //! ray. Each child goes on with the rays that may hit it, a bit for each, and where it is entered
 //! first. What was found closer since then drops rays, and with the last of them the child. In a
 //! leaf, rays with a common origin are filtered by [`EdgeVolumes`] before the triangle test. Where few
-//! are left, each goes on [alone](super::wide).
+//! are left, each goes on by itself, and they take [turns](super::turns): a ray that is on its way is
+//! still among the others, and goes no second way before it is back.
 //!
 //! **The answer** is that of every other traversal ([why](crate#why-the-answer-is-one)): a ray is left
 //! out only where it misses the box by the slab test, or enters it after its bound, or where the

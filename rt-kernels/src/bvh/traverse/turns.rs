@@ -16,10 +16,10 @@
 //!
 //! **The stacks** cannot overflow: as [there](super::wide), and N entries more, since all lanes are written.
 //!
-//! Source: Wald, Benthin, Boulos, "Getting Rid of Packets", 2008, for the nodes; the order by octants is
-//! that of Garanzha and Loop, "Fast Ray Sorting and Breadth-First Packet Traversal for GPU Ray Tracing",
-//! 2010. To take turns is Wald's, Slusallek's and others' in "Embree"'s streams turned round: rays are not
-//! sorted, but interleaved.
+//! Source: Wald, Benthin, Boulos, "Getting Rid of Packets", 2008, for the nodes; the order of children by
+//! octants is that of Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through
+//! Compressed Wide BVHs", 2017, Section 3.2, with all eight orders in the node. The turns, and a step
+//! without guesses, are worked out here.
 
 use simd4::{Lanes, Simd, SimdF32, SimdMask, SimdU32};
 
