@@ -23,6 +23,10 @@ const BINS: usize = 16;
 /// The least number of references of which the halves may be passed over at once.
 const PARALLEL: usize = 1 << 15;
 
+/// From so many references on, every other one has bins of its own: neighbours go to the same bins, and
+/// the second would wait until the first is in memory.
+const APART: usize = 64;
+
 /// The bins an axis for so many references. Among few, more borders find nothing much cheaper, and to
 /// look through the bins would take longer than to fill them.
 fn bins_for(references: usize) -> usize {
@@ -127,23 +131,47 @@ impl Binning {
     }
 
     /// What is in each bin of each axis.
-    fn fill<const B: usize>(&self, references: &[Reference], join: &impl Join) -> [[Side; B]; 3] {
+    fn fill<const B: usize>(&self, references: &[Reference], join: &impl Join) -> Bins<B> {
         if references.len() >= PARALLEL {
             let (left, right) = references.split_at(references.len() / 2);
             let (mut bins, more) =
                 join.join(|| self.fill::<B>(left, join), || self.fill::<B>(right, join));
-            for (bin, more) in bins.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
-                bin.add(&more.bounds, more.count);
-            }
+            merge(&mut bins, &more);
             return bins;
         }
+        let (pairs, others) = match references.len() {
+            APART.. => references.as_chunks(),
+            _ => (&[][..], references),
+        };
         let mut bins = [[Side::empty(); B]; 3];
-        for reference in references {
-            for (bins, place) in bins.iter_mut().zip(self.bins(reference)) {
-                bins[place].add(reference.bounds(), 1);
+        others.iter().for_each(|reference| self.put(reference, &mut bins));
+        if !pairs.is_empty() {
+            let mut more = [[Side::empty(); B]; 3];
+            for [one, next] in pairs {
+                self.put(one, &mut bins);
+                self.put(next, &mut more);
             }
+            merge(&mut bins, &more);
         }
         bins
+    }
+
+    /// Puts a reference into its bins.
+    #[inline(always)]
+    fn put<const B: usize>(&self, reference: &Reference, bins: &mut Bins<B>) {
+        for (bins, place) in bins.iter_mut().zip(self.bins(reference)) {
+            bins[place].add(reference.bounds(), 1);
+        }
+    }
+}
+
+/// The bins of each axis.
+type Bins<const B: usize> = [[Side; B]; 3];
+
+/// Adds to bins what is in others.
+fn merge<const B: usize>(bins: &mut Bins<B>, more: &Bins<B>) {
+    for (bin, more) in bins.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
+        bin.add(&more.bounds, more.count);
     }
 }
 

@@ -54,18 +54,18 @@ impl<const N: usize> WideNode<N> {
 
     /// Guesses the order of the children by the centres of their boxes.
     pub(super) fn set_order(&mut self) {
-        let centers = self
+        let [cx, cy, cz] = self
             .sides
             .each_ref()
             .map(|[low, high]| -> [f32; N] { std::array::from_fn(|lane| low[lane] + high[lane]) });
+        let count = self.children.iter().filter(|&&child| child != Child::NONE.0).count();
         self.order = [0; N];
-        for octant in 0..8 {
-            let [x, y, z] = [0, 1, 2].map(|axis| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 });
+        for octant in 0..4 {
+            let [x, y] = [0, 1].map(|axis| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 });
             let along: [f32; N] = std::array::from_fn(|lane| {
-                let [cx, cy, cz] = [centers[0][lane], centers[1][lane], centers[2][lane]];
                 // What has no box comes last.
                 let there = self.children[lane] != Child::NONE.0;
-                if there { cx * x + cy * y + cz * z } else { f32::NEG_INFINITY }
+                if there { cx[lane] * x + cy[lane] * y + cz[lane] } else { f32::NEG_INFINITY }
             });
             for lane in 0..N {
                 let before = |other: usize| match other < lane {
@@ -73,7 +73,10 @@ impl<const N: usize> WideNode<N> {
                     false => along[other] > along[lane],
                 };
                 let rank = (0..N).map(|other| usize::from(before(other))).sum::<usize>();
+                // The other way it is the other way round.
+                let back = if rank < count { count - 1 - rank } else { rank };
                 self.order[rank % N] |= (lane as u32) << (3 * octant);
+                self.order[back % N] |= (lane as u32) << (3 * (7 - octant));
             }
         }
     }
