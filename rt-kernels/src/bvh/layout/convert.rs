@@ -44,6 +44,7 @@ impl<const N: usize> Wide<N> {
         }
         let blocks = Blocks { counts, references: &references };
         let whole = blocks.subtree(root, 0, join);
+        let most = blocks.most(&whole);
         let leaves = [const { Vec::new() }; KINDS];
         let (slots, prims) = (Vec::new(), Vec::new());
         let mut converter = Converter { primitives, blocks, leaves, wide: &mut wide, slots, prims };
@@ -51,7 +52,9 @@ impl<const N: usize> Wide<N> {
             Subtree::Inner(inner) => open(inner, 1),
             leaf => vec![leaf],
         };
-        converter.node(children, 1);
+        // Memory for the blocks takes about as long as to lay out the nodes.
+        let (_, empty) =
+            join.join(|| converter.node(children, 1), || vec![RecordBlock::new(&[]); most]);
         let Converter { leaves: [_, of_spheres, of_cones], slots, .. } = converter;
         let (blocks, spheres) = (slots.len(), wide.spheres.len());
         for (leaves, before) in [(of_spheres, blocks), (of_cones, blocks + spheres)] {
@@ -60,7 +63,9 @@ impl<const N: usize> Wide<N> {
                 wide.nodes[node].set_child(lane, Child(slots + ((before as u32) << 4)));
             }
         }
-        wide.blocks.resize(blocks, RecordBlock::new(&[]));
+        wide.blocks = empty;
+        // In a leaf, several pieces of a triangle are one.
+        wide.blocks.truncate(blocks);
         fill(primitives, &slots, &mut wide.blocks, join);
         wide
     }
@@ -94,6 +99,21 @@ impl<const N: usize> Blocks<'_, N> {
         let (mut children, last) = join.join(|| all(parts), || all(last));
         children.extend(last);
         Subtree::inner(aabb, children)
+    }
+
+    /// How many blocks there may be.
+    fn most(&self, whole: &Subtree<N>) -> usize {
+        let mut most = 0;
+        whole.leaves(&mut |node| {
+            let mut references = 0;
+            node.leaves(&mut |_, range| {
+                if self.kind(&self.references[range.start]) == 0 {
+                    references += range.len();
+                }
+            });
+            most += references.div_ceil(N);
+        });
+        most
     }
 
     /// How many nodes [`part`](Blocks::part) makes of one; 0 for what is a leaf here.
