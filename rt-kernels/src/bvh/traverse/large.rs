@@ -110,8 +110,20 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
                 let (large, turns, hits, stats) =
                     (&mut **large, &mut *turns, &mut *hits, &mut done);
                 let (alone, on_way) = (0, 0);
-                Traversal { s, wide, large, turns, packet, first, hits, alone, on_way, stats }
-                    .trace::<B>(class.rays);
+                Traversal {
+                    s,
+                    wide,
+                    large,
+                    turns,
+                    packet,
+                    most,
+                    first,
+                    hits,
+                    alone,
+                    on_way,
+                    stats,
+                }
+                .trace::<B>(class.rays);
             }
             chunk.store(hits, first);
         }
@@ -140,6 +152,8 @@ pub(super) struct Traversal<'a, S: Simd, C: Counters, const N: usize> {
     large: &'a mut [Entry],
     turns: &'a mut Turns,
     pub(super) packet: LargePacket<'a>,
+    /// How many rays may go together, of which few are half at most.
+    most: usize,
     /// The first ray's place in the batch.
     first: usize,
     /// What is found of rays of chunks before, which are still taking turns.
@@ -166,7 +180,7 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     #[inline(always)]
     fn run<B: SimdF32<Simd = S>, W: Way>(&mut self, culling: &Culling, rays: u64) {
         let wide = self.wide;
-        let few = W::FEW.min(rays.count_ones() / 2);
+        let few = W::FEW.min(self.most as u32 / 2);
         let mut next = Entry { child: Child::ROOT, enter: 0.0, rays };
         let mut top = 0;
         loop {
