@@ -117,8 +117,7 @@ pub trait Accelerator: Send + Sync {
     fn intersect_where(&self, ray: &Ray, keep: &mut dyn FnMut(&Hit) -> bool) -> Option<Hit> {
         let mut closest: Option<Hit> = None;
         self.visit(ray, &mut |hit| {
-            let wins = |best: Hit| (hit.t, hit.prim) < (best.t, best.prim);
-            if closest.is_none_or(wins) && keep(&hit) {
+            if closest.is_none_or(|best| hit.wins(&best)) && keep(&hit) {
                 closest = Some(hit);
             }
             closest.map_or(f32::INFINITY, |best| best.t)

@@ -132,7 +132,8 @@ impl<const N: usize> WideNode<N> {
     }
 }
 
-/// The order that puts these lanes first, and how many they are.
+/// The order that puts these lanes first, and how many they are. (`compress_store` would keep what is
+/// behind them in memory; here it is of no account, and to write all lanes is quicker.)
 #[inline(always)]
 pub(crate) fn without_gaps<V: SimdF32>(s: V::Simd, lanes: u32) -> (V::U32, usize) {
     let lanes = lanes as usize % COMPRESSED.len();
@@ -198,10 +199,22 @@ impl Child {
         Child((slots.start as u32) << 4 | slots.len() as u32)
     }
 
+    /// Whether it is a leaf; [`NONE`](Child::NONE) counts as one.
+    #[inline(always)]
+    pub(crate) fn is_leaf(self) -> bool {
+        self.0 & 15 != 0
+    }
+
+    /// The node, or the first slot.
+    #[inline(always)]
+    pub(crate) fn first(self) -> usize {
+        (self.0 >> 4) as usize
+    }
+
     /// The node, or the slots of the leaf.
     #[inline(always)]
     pub(crate) fn find(self) -> Result<usize, Range<usize>> {
-        let first = (self.0 >> 4) as usize;
+        let first = self.first();
         match (self.0 & 15) as usize {
             0 => Ok(first),
             count => Err(first..first + count),
@@ -261,10 +274,10 @@ impl<const N: usize> Wide<N> {
     pub(crate) fn prefetch_child<S: Simd>(&self, s: S, child: Child) {
         let (nodes, blocks) = (self.nodes.as_ptr(), self.blocks.as_ptr());
         // Without a branch, which would be a guess; what is not there is not sent for.
-        let first = (child.0 >> 4) as usize;
+        let first = child.first();
         let block = blocks.wrapping_add(first);
         let node = nodes.wrapping_add(first).cast();
-        s.prefetch(if child.0 & 15 == 0 { node } else { block });
+        s.prefetch(if child.is_leaf() { block } else { node });
     }
 
     /// The primitives in slots of a leaf.

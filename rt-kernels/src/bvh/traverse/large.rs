@@ -331,9 +331,7 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     /// Rays go on from a child, each by itself, while it is others' turn too.
     #[inline(always)]
     fn one_by_one<B: SimdF32<Simd = S>>(&mut self, child: Child, mut rays: u64) {
-        let new = rays & !self.alone;
-        self.alone |= rays;
-        self.stats.count(|stats| stats.rays_alone += u64::from(new.count_ones()));
+        self.count_alone(rays);
         while rays != 0 {
             let ray = rays.trailing_zeros() as usize;
             // What it finds on one way spares it others.
@@ -351,9 +349,7 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     #[inline(always)]
     fn leaf_one_by_one<B: SimdF32<Simd = S>>(&mut self, slots: &Range<usize>, mut rays: u64) {
         let s = self.s;
-        let new = rays & !self.alone;
-        self.alone |= rays;
-        self.stats.count(|stats| stats.rays_alone += u64::from(new.count_ones()));
+        self.count_alone(rays);
         while rays != 0 {
             let ray = rays.trailing_zeros() as usize;
             rays &= rays - 1;
@@ -363,6 +359,14 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
             wide::leaf(s, self.wide, slots, &packet, &frame, &mut query, self.stats);
             self.packet.set_hit(ray, query.hit());
         }
+    }
+
+    /// Counts those rays that go by themselves for the first time.
+    #[inline(always)]
+    fn count_alone(&mut self, rays: u64) {
+        let new = rays & !self.alone;
+        self.alone |= rays;
+        self.stats.count(|stats| stats.rays_alone += u64::from(new.count_ones()));
     }
 
     /// All rays by themselves have their turn.

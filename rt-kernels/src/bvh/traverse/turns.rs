@@ -64,7 +64,7 @@ struct Slot {
     /// Where its next child came from in the stacks: what is above is of no account.
     top: u32,
     /// Where it goes next.
-    child: u32,
+    child: Child,
     /// Its place in the batch.
     place: u32,
     ray: Alone,
@@ -74,7 +74,7 @@ impl Turns {
     /// Room for any rays in that hierarchy.
     pub(crate) fn new<const N: usize>(wide: &Wide<N>) -> Self {
         let hit = Hit { t: 0.0, prim: Hits::NONE, u: 0.0, v: 0.0 };
-        let slot = Slot { hit, top: 0, child: 0, place: 0, ray: Alone::default() };
+        let slot = Slot { hit, top: 0, child: Child::ROOT, place: 0, ray: Alone::default() };
         let room = 1 + wide.depth() * (N - 1) + N;
         let (children, enters) = (vec![Child::NONE.0; RAYS * room], vec![0.0; RAYS * room]);
         let stacks = Stacks { children, enters, room };
@@ -100,8 +100,8 @@ impl Turns {
         let free = !(self.at_nodes | self.at_leaves);
         let i = free.trailing_zeros() as usize % RAYS;
         let top = self.stacks.first(i) as u32;
-        self.slots[i] = Slot { hit, top, child: child.0, place: place as u32, ray };
-        let leaf = u32::from(child.0 & 15 != 0);
+        self.slots[i] = Slot { hit, top, child, place: place as u32, ray };
+        let leaf = u32::from(child.is_leaf());
         self.at_nodes |= (leaf ^ 1) << i;
         self.at_leaves |= leaf << i;
     }
@@ -127,9 +127,9 @@ impl Turns {
                 stats.active_rays += 1;
                 stats.box_tests += N as u64;
             });
-            let Child(child) = slots[i].at_node::<V, N>(s, wide, stacks);
-            at_leaves |= u32::from(child & 15 != 0) << i;
-            done |= u32::from(child == Child::NONE.0) << i;
+            let child = slots[i].at_node::<V, N>(s, wide, stacks);
+            at_leaves |= u32::from(child.is_leaf()) << i;
+            done |= u32::from(child == Child::NONE) << i;
         }
         at_nodes &= !at_leaves;
         at_leaves &= !done;
@@ -139,9 +139,9 @@ impl Turns {
             while left != 0 {
                 let i = left.trailing_zeros() as usize;
                 left &= left - 1;
-                let Child(child) = slots[i].at_leaf::<V, N>(s, wide, stacks, any, i, stats);
-                at_leaves |= u32::from(child & 15 != 0) << i;
-                done |= u32::from(child == Child::NONE.0) << i;
+                let child = slots[i].at_leaf::<V, N>(s, wide, stacks, any, i, stats);
+                at_leaves |= u32::from(child.is_leaf()) << i;
+                done |= u32::from(child == Child::NONE) << i;
             }
             at_nodes &= !at_leaves;
             at_leaves &= !done;
@@ -193,7 +193,7 @@ impl Slot {
         wide: &Wide<N>,
         stacks: &mut Stacks,
     ) -> Child {
-        let Some(node) = wide.nodes().get((self.child >> 4) as usize) else { return Child::NONE };
+        let Some(node) = wide.nodes().get(self.child.first()) else { return Child::NONE };
         let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
         let Crossing { mask, enter } = robust::crossing(s, node, &packet, &frame, packet.tmax);
         let (children, enters, count) = node.in_order::<V>(s, mask, enter, self.ray.octant());
@@ -214,7 +214,7 @@ impl Slot {
     ) -> Child {
         let top = end - 1;
         let child = Child(stacks.children[top]);
-        (self.top, self.child) = (top as u32, child.0);
+        (self.top, self.child) = (top as u32, child);
         wide.prefetch_child(s, child);
         child
     }
@@ -230,7 +230,7 @@ impl Slot {
         i: usize,
         stats: &mut impl Counters,
     ) -> Child {
-        let leaf = Child(self.child).find().err();
+        let leaf = self.child.find().err();
         let blocks = leaf.as_ref().map_or(&[][..], |slots| wide.blocks(slots));
         let end = if let [block] = blocks {
             let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
@@ -293,7 +293,7 @@ impl Slot {
         s.vectorize(
             #[inline(always)]
             || {
-                let leaf = Child(self.child).find().err().unwrap_or_default();
+                let leaf = self.child.find().err().unwrap_or_default();
                 self.ask::<V>(
                     s,
                     stacks,
