@@ -15,7 +15,6 @@ pub struct Alone {
     pub(super) tmin: f32,
     /// A bit for each axis on which the direction is negative, x lowest.
     pub(super) octant: u32,
-    pub(super) negative: [bool; 3],
     pub(super) dir: [f32; 3],
     pub(super) axes: SameAxis,
     /// The origin with the dominant axis as its z, and the shear.
@@ -42,6 +41,6 @@ impl Alone {
         };
         let Vec3 { x, y, z } = Vec3::splat(s, self.shear);
         let shear = Shear { origin: Vec3::splat(s, self.shear_origin), x, y, z };
-        (packet, Coherent::new(self.negative, self.axes, shear))
+        (packet, Coherent::of_octant(self.octant, self.axes, shear))
     }
 }

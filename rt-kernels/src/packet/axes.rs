@@ -14,11 +14,14 @@ pub trait Axes<V: SimdF32>: Copy {
 #[derive(Clone, Copy, Debug)]
 pub struct SameAxis([usize; 3]);
 
+/// The axes in the order that puts each last; a fourth for whoever masks instead of comparing.
+const ORDERS: [[usize; 3]; 4] = [[1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2]];
+
 impl SameAxis {
     /// Puts that axis, 0 to 2, last.
     #[inline(always)]
     pub fn new(last: usize) -> Self {
-        SameAxis([(last + 1) % 3, (last + 2) % 3, last % 3])
+        SameAxis(ORDERS[last % 4])
     }
 
     /// The axes that become x, y and z.

@@ -139,6 +139,13 @@ impl<V: SimdF32> Coherent<V> {
         Coherent::new(dir.map(f32::is_sign_negative), axes, shear)
     }
 
+    /// Of rays into an octant: a bit for each axis on which the direction is negative, x lowest.
+    #[inline(always)]
+    pub(super) fn of_octant(octant: u32, axes: SameAxis, shear: Shear<V>) -> Self {
+        let near = [0, 1, 2].map(|axis| (octant >> axis & 1) as usize);
+        Coherent { near, far: near.map(|side| side ^ 1), axes, shear }
+    }
+
     /// Of rays with these signs of their directions.
     #[inline(always)]
     pub(super) fn new([x, y, z]: [bool; 3], axes: SameAxis, shear: Shear<V>) -> Self {

@@ -26,11 +26,14 @@ pub struct Chunk {
     dir: [Column<f32>; 3],
     inv: [Column<f32>; 3],
     tmin: Column<f32>,
-    /// With each ray's dominant axis as z.
+    /// With each ray's dominant axis as z, as the next.
+    shear_origin: [Column<f32>; 3],
     shear: [Column<f32>; 3],
     /// The magnitudes of the reciprocals, with the dominant axis of the class that is traced as z.
     inv_abs: [Column<f32>; 3],
     hits: Found,
+    /// A bit for each axis on which the direction is negative, x lowest; above them the dominant axis.
+    signs_and_axis: Column<u32>,
     /// Rays with a negative direction, by axis.
     negative: [u64; 3],
     /// Rays whose dominant axis is x, and those where it is y.
@@ -66,9 +69,11 @@ impl Default for Chunk {
             dir: [column; 3],
             inv: [column; 3],
             tmin: column,
+            shear_origin: [column; 3],
             shear: [column; 3],
             inv_abs: [column; 3],
             hits: Found { t: column, u: column, v: column, prim: [0; LARGE] },
+            signs_and_axis: [0; LARGE],
             negative: [0; 3],
             dominant: [0; 2],
             left: 0,
@@ -96,7 +101,11 @@ impl Chunk {
             put3(&mut self.origin, at, packet.origin);
             put3(&mut self.dir, at, packet.dir);
             put3(&mut self.inv, at, packet.inv);
+            put3(&mut self.shear_origin, at, shear.origin);
             put3(&mut self.shear, at, Vec3::new(shear.x, shear.y, shear.z));
+            let bit = |mask, bits| V::U32::select(mask, V::U32::splat(s, bits), V::U32::splat(s, 0));
+            let axis = V::U32::splat(s, 2 << 3) ^ bit(in_x, 2 << 3) ^ bit(in_y, 3 << 3);
+            put(&mut self.signs_and_axis, at, axis | bit(x, 1) | bit(y, 2) | bit(z, 4));
             put(&mut self.tmin, at, packet.tmin);
             put(&mut self.hits.t, at, packet.tmax);
             put(&mut self.hits.prim, at, V::U32::splat(s, Hits::NONE));
@@ -155,19 +164,14 @@ impl Chunk {
     pub(crate) fn alone(&self, ray: usize) -> Alone {
         let ray = ray % LARGE;
         let of = |[x, y, z]: &[Column<f32>; 3]| [x[ray], y[ray], z[ray]];
-        let bit = |rays: u64| (rays >> ray & 1) as u32;
-        let [x, y, z] = [bit(self.negative[0]), bit(self.negative[1]), bit(self.negative[2])];
-        let axes = SameAxis::new((2 - 2 * bit(self.dominant[0]) - bit(self.dominant[1])) as usize);
-        let [kx, ky, kz] = axes.order();
         Alone {
             origin: of(&self.origin),
             inv: of(&self.inv),
             tmin: self.tmin[ray],
-            octant: x | y << 1 | z << 2,
-            negative: [x == 1, y == 1, z == 1],
+            octant: self.signs_and_axis[ray] & 7,
             dir: of(&self.dir),
-            axes,
-            shear_origin: [self.origin[kx][ray], self.origin[ky][ray], self.origin[kz][ray]],
+            axes: SameAxis::new((self.signs_and_axis[ray] >> 3) as usize),
+            shear_origin: of(&self.shear_origin),
             shear: of(&self.shear),
         }
     }

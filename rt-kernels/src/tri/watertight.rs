@@ -101,17 +101,13 @@ impl<C: Reciprocal, A: Rounding, const EXACT_ZEROS: bool, const OWN_BOX: bool> T
             A::difference(ax, cy, ay, cx),
             A::difference(bx, ay, by, ax),
         ];
-        let mut inside = same_signs(s, edges);
+        let Signs { mut inside, doubtful } = Signs::of(s, edges);
         if R::EARLY_OUT && inside.none() {
             return None;
         }
-        if EXACT_ZEROS {
-            let zero = V::splat(s, 0.0);
-            let doubtful = inside & (edges[0].eq(zero) | edges[1].eq(zero) | edges[2].eq(zero));
-            if doubtful.any() {
-                edges = exact_edges(s, doubtful, [[ax, ay], [bx, by], [cx, cy]], edges);
-                inside = same_signs(s, edges);
-            }
+        if EXACT_ZEROS && doubtful.any() {
+            edges = exact_edges(s, doubtful, [[ax, ay], [bx, by], [cx, cy]], edges);
+            inside = Signs::of(s, edges).inside;
         }
 
         let [u, v, w] = edges;
@@ -132,11 +128,24 @@ impl<C: Reciprocal, A: Rounding, const EXACT_ZEROS: bool, const OWN_BOX: bool> T
     }
 }
 
-/// The lanes whose edge functions have no two opposite signs.
-#[inline(always)]
-fn same_signs<V: SimdF32>(s: V::Simd, [u, v, w]: [V; 3]) -> V::Mask {
-    let zero = V::splat(s, 0.0);
-    u.min(v).min(w).ge(zero) | u.max(v).max(w).le(zero)
+/// What the signs of the edge functions say.
+struct Signs<V: SimdF32> {
+    /// Where no two are opposite.
+    inside: V::Mask,
+    /// Where so, and one is 0.
+    doubtful: V::Mask,
+}
+
+impl<V: SimdF32> Signs<V> {
+    #[inline(always)]
+    fn of(s: V::Simd, [u, v, w]: [V; 3]) -> Self {
+        let zero = V::splat(s, 0.0);
+        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
+        Signs {
+            inside: least.ge(zero) | greatest.le(zero),
+            doubtful: least.eq(zero) | greatest.eq(zero),
+        }
+    }
 }
 
 /// The edge functions again, in the lanes of `doubtful`: rounded from their exact values, so that

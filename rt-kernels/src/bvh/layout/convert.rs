@@ -204,7 +204,7 @@ impl<const N: usize> Converter<'_, N> {
         let at = self.wide.nodes.len();
         self.wide.nodes.push(WideNode::EMPTY);
         self.wide.depth = self.wide.depth.max(depth);
-        for (lane, child) in children.into_iter().enumerate() {
+        for (lane, child) in in_halves(children).into_iter().enumerate() {
             self.wide.nodes[at].set_box(lane, child.aabb());
             let child = match child {
                 Subtree::Inner(inner) => Child::node(self.node(open(inner, depth + 1), depth + 1)),
@@ -279,6 +279,20 @@ fn fill<const N: usize>(
 /// The children of a node at that depth; the root's is 1.
 fn open<const N: usize>(inner: Inner<N>, depth: usize) -> Vec<Subtree<N>> {
     if depth <= FIRST_DEPTHS { inner.open_largest() } else { inner.open() }
+}
+
+/// The children in the order of their lanes, so that each half of a node has neighbours: apart from the
+/// other where the boxes' centres are furthest apart.
+fn in_halves<const N: usize>(mut children: Vec<Subtree<N>>) -> Vec<Subtree<N>> {
+    if children.len() > 4 {
+        let center = |child: &Subtree<N>| child.aabb().min() + child.aabb().max();
+        let centers = children
+            .iter()
+            .fold(Aabb::EMPTY, |all, child| all.union(&Aabb::point(center(child))));
+        let axis = centers.extent().max_position();
+        children.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
+    }
+    children
 }
 
 /// Two nodes with one half each of some nodes, parted where their boxes' centres are furthest apart.

@@ -11,8 +11,9 @@
 
 use std::ops::Range;
 
-use simd4::{Lanes, Simd, SimdF32, SimdInt, SimdMask, SimdU32};
+use simd4::{Lanes, Simd, SimdF32, SimdMask, SimdU32};
 
+use super::order::{Half, Order, without_gaps};
 use crate::bvh::refit::Refit;
 use crate::geom::Aabb;
 use crate::packet::Boxes;
@@ -26,12 +27,9 @@ use crate::tri::{Method, Record, RecordBlock};
 pub struct WideNode<const N: usize> {
     sides: [[[f32; N]; 2]; 3],
     children: [u32; N],
+    /// In which order rays come by them.
     order: Order<N>,
 }
-
-/// The lanes of a node's children in the order in which rays of each octant come by them, the last first:
-/// three bits for each octant, the first octant lowest. It is a guess: a better one saves visits.
-type Order<const N: usize> = [u32; N];
 
 const _: () = assert!(size_of::<WideNode<4>>() == 128, "two cache lines");
 const _: () = assert!(size_of::<WideNode<8>>() == 256, "four cache lines");
@@ -41,7 +39,7 @@ impl<const N: usize> WideNode<N> {
     pub(super) const EMPTY: Self = WideNode {
         sides: [[[f32::INFINITY; N], [f32::NEG_INFINITY; N]]; 3],
         children: [Child::NONE.0; N],
-        order: [0; N],
+        order: Order::ANY,
     };
 
     pub(super) fn set_box(&mut self, lane: usize, aabb: &Aabb) {
@@ -52,51 +50,21 @@ impl<const N: usize> WideNode<N> {
         }
     }
 
-    /// Guesses the order of the children by the centres of their boxes.
+    /// Guesses in which order rays come by the children.
     pub(super) fn set_order(&mut self) {
-        let [cx, cy, cz] = self
+        // Where there is no child, from infinity to its opposite, that is NaN.
+        let centers = self
             .sides
             .each_ref()
-            .map(|[low, high]| -> [f32; N] { std::array::from_fn(|lane| low[lane] + high[lane]) });
-        let count = self.children.iter().filter(|&&child| child != Child::NONE.0).count();
-        self.order = [0; N];
-        for octant in 0..4 {
-            let [x, y] = [0, 1].map(|axis| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 });
-            let along: [f32; N] = std::array::from_fn(|lane| {
-                // What has no box comes last.
-                let there = self.children[lane] != Child::NONE.0;
-                if there { cx[lane] * x + cy[lane] * y + cz[lane] } else { f32::NEG_INFINITY }
-            });
-            for lane in 0..N {
-                let before = |other: usize| match other < lane {
-                    true => along[other] >= along[lane],
-                    false => along[other] > along[lane],
-                };
-                let rank = (0..N).map(|other| usize::from(before(other))).sum::<usize>();
-                // The other way it is the other way round.
-                let back = if rank < count { count - 1 - rank } else { rank };
-                self.order[rank % N] |= (lane as u32) << (3 * octant);
-                self.order[back % N] |= (lane as u32) << (3 * (7 - octant));
-            }
-        }
+            .map(|[low, high]| std::array::from_fn(|lane| low[lane] + high[lane]));
+        self.order = Order::of(&centers);
     }
 
-    /// The children in the lanes of `mask`, without gaps, in the order in which rays of an octant come by
-    /// them, the last first; where each is entered, by the same order of `enter`; and how many there are.
+    /// Its halves, for rays of an octant, the one that they come by last first; the second is of no account if
+    /// `V` has a lane for each child: then the first is all.
     #[inline(always)]
-    pub(crate) fn in_order<V: SimdF32>(
-        &self,
-        s: V::Simd,
-        mask: V::Mask,
-        enter: V,
-        octant: u32,
-    ) -> (V::U32, V, usize) {
-        let none = V::U32::splat(s, Child::NONE.0);
-        let children = V::U32::select(mask, V::U32::load(s, &self.children), none);
-        let order = V::U32::load(s, &self.order).shr(3 * octant);
-        let (children, enter) = (children.permute(order), enter.permute(order));
-        let (order, count) = without_gaps::<V>(s, children.ne(none).bitmask());
-        (children.permute(order), enter.permute(order), count)
+    pub(crate) fn parts(&self, octant: u32) -> [Part<'_, N>; 2] {
+        self.order.halves(octant).map(|half| Part { node: self, half, octant })
     }
 
     /// The child in a lane.
@@ -132,42 +100,52 @@ impl<const N: usize> WideNode<N> {
     }
 }
 
-/// The order that puts these lanes first, and how many they are. (`compress_store` would keep what is
-/// behind them in memory; here it is of no account, and to write all lanes is quicker.)
-#[inline(always)]
-pub(crate) fn without_gaps<V: SimdF32>(s: V::Simd, lanes: u32) -> (V::U32, usize) {
-    let lanes = lanes as usize % COMPRESSED.len();
-    (V::U32::load(s, &COMPRESSED[lanes]), COUNTS[lanes].into())
+/// As many lanes of a node as fit into a register.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Part<'a, const N: usize> {
+    node: &'a WideNode<N>,
+    half: Half,
+    octant: u32,
 }
 
-/// For each mask of eight lanes, or of four, its lanes, and after them the first lane again.
-static COMPRESSED: [[u32; 8]; 256] = {
-    let mut table = [[0; 8]; 256];
-    let mut mask = 0;
-    while mask < 256 {
-        let (mut lane, mut count) = (0, 0);
-        while lane < 8 {
-            if mask >> lane & 1 == 1 {
-                table[mask][count] = lane as u32;
-                count += 1;
-            }
-            lane += 1;
-        }
-        mask += 1;
+impl<const N: usize> Part<'_, N> {
+    /// Its first lane.
+    #[inline(always)]
+    fn first<V: Lanes>(&self) -> usize {
+        (self.half.half * V::LANES) & (N - V::LANES)
     }
-    table
-};
 
-/// How many lanes each mask has: not every level has an instruction for it.
-static COUNTS: [u8; 256] = {
-    let mut table = [0; 256];
-    let mut mask = 0;
-    while mask < 256 {
-        table[mask] = (mask as u32).count_ones() as u8;
-        mask += 1;
+    /// The children in the lanes of `mask`, without gaps, in the order in which rays of an octant come by
+    /// them, the last first; where each is entered, by the same order of `enter`; and how many there are.
+    #[inline(always)]
+    pub(crate) fn in_order<V: SimdF32>(
+        &self,
+        s: V::Simd,
+        mask: V::Mask,
+        enter: V,
+    ) -> (V::U32, V, usize) {
+        let node = self.node;
+        let children = V::U32::load(s, &node.children[self.first::<V>()..]);
+        if V::LANES == 4 {
+            let (order, count) = self.half.order::<V>(s, mask.bitmask());
+            return (children.permute(order), enter.permute(order), count);
+        }
+        let none = V::U32::splat(s, Child::NONE.0);
+        let order = node.order.of_eight::<V>(s, self.octant);
+        let children = V::U32::select(mask, children, none).permute(order);
+        let enter = enter.permute(order);
+        let (order, count) = without_gaps::<V>(s, children.ne(none).bitmask());
+        (children.permute(order), enter.permute(order), count)
     }
-    table
-};
+}
+
+impl<V: SimdF32, const N: usize> Boxes<V> for Part<'_, N> {
+    #[inline(always)]
+    fn side(&self, s: V::Simd, axis: usize, side: usize) -> V {
+        // The mask tells the compiler that there are but two sides.
+        V::load(s, &self.node.sides[axis][side & 1][self.first::<V>()..])
+    }
+}
 
 impl<V: SimdF32, const N: usize> Boxes<V> for WideNode<N> {
     #[inline(always)]

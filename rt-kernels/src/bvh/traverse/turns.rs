@@ -28,7 +28,7 @@ use crate::bvh::layout::{Child, Wide, without_gaps};
 use crate::packet::{Alone, Ask, Coherent, Hits, Packet, Query, Single};
 use crate::slab::{Crossing, robust};
 use crate::tri::knobs::{Division, Plain};
-use crate::tri::{self, BlockLanes, Found, RecordBlock, TriangleKernel, Watertight};
+use crate::tri::{self, BlockLanes, Found, TriangleKernel, Watertight};
 use crate::{Counters, Hit};
 
 /// How many rays take turns: a bit for each in a `u32`.
@@ -40,6 +40,8 @@ type WithoutBox = Watertight<Division, Plain, true, false>;
 /// The rays that are on their way.
 pub(crate) struct Turns {
     slots: Box<[Slot; RAYS]>,
+    /// Where each goes next.
+    next: [u32; RAYS],
     stacks: Stacks,
     /// The rays whose next child is a node, and those where it is a leaf.
     at_nodes: u32,
@@ -47,38 +49,44 @@ pub(crate) struct Turns {
 }
 
 /// Of each ray the children that are still to be visited, above one that is none.
-struct Stacks {
-    children: Vec<u32>,
+struct Stacks<T = Vec<u32>, U = Vec<f32>> {
+    children: T,
     /// Where each is entered.
-    enters: Vec<f32>,
+    enters: U,
     /// How many entries are one ray's.
     room: usize,
 }
+
+/// The stacks, borrowed.
+type View<'a> = Stacks<&'a mut [u32], &'a mut [f32]>;
+
+/// More entries than a step at a node looks at. That they are so many, and a power of two, tells the compiler
+/// that all it looks at is there.
+const MANY: usize = 16;
 
 /// A ray on its way.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 struct Slot {
+    ray: Alone,
     /// What it has found.
     hit: Hit,
-    /// Where its next child came from in the stacks: what is above is of no account.
+    /// Its uppermost entry in the stacks, below its next child. What is above is of no account.
     top: u32,
-    /// Where it goes next.
-    child: Child,
     /// Its place in the batch.
     place: u32,
-    ray: Alone,
 }
 
 impl Turns {
     /// Room for any rays in that hierarchy.
     pub(crate) fn new<const N: usize>(wide: &Wide<N>) -> Self {
         let hit = Hit { t: 0.0, prim: Hits::NONE, u: 0.0, v: 0.0 };
-        let slot = Slot { hit, top: 0, child: Child::ROOT, place: 0, ray: Alone::default() };
-        let room = 1 + wide.depth() * (N - 1) + N;
+        let slot = Slot { ray: Alone::default(), hit, top: 0, place: 0 };
+        let room = wide.depth() * (N - 1) + 2 * MANY;
         let (children, enters) = (vec![Child::NONE.0; RAYS * room], vec![0.0; RAYS * room]);
         let stacks = Stacks { children, enters, room };
-        Turns { slots: Box::new([slot; RAYS]), stacks, at_nodes: 0, at_leaves: 0 }
+        let next = [Child::NONE.0; RAYS];
+        Turns { slots: Box::new([slot; RAYS]), next, stacks, at_nodes: 0, at_leaves: 0 }
     }
 
     /// Whether no other ray can be put among them.
@@ -99,8 +107,9 @@ impl Turns {
     pub(crate) fn put(&mut self, child: Child, ray: Alone, hit: Hit, place: usize) {
         let free = !(self.at_nodes | self.at_leaves);
         let i = free.trailing_zeros() as usize % RAYS;
-        let top = self.stacks.first(i) as u32;
-        self.slots[i] = Slot { hit, top, child, place: place as u32, ray };
+        let top = self.stacks.bottom(i) as u32;
+        self.slots[i] = Slot { ray, hit, top, place: place as u32 };
+        self.next[i] = child.0;
         let leaf = u32::from(child.is_leaf());
         self.at_nodes |= (leaf ^ 1) << i;
         self.at_leaves |= leaf << i;
@@ -109,16 +118,31 @@ impl Turns {
     /// All rays at nodes go one step; if there are enough at leaves, or none at nodes, so do those. The rays
     /// that are done then, each a bit for [`found`](Turns::found), are not among them any more.
     #[inline(always)]
-    pub(crate) fn round<V: SimdF32, const N: usize>(
+    pub(crate) fn round<B: SimdF32, const N: usize>(
+        &mut self,
+        s: B::Simd,
+        wide: &Wide<N>,
+        any: bool,
+        stats: &mut impl Counters,
+    ) -> u32 {
+        // Two registers at a time are as many again as there are for it.
+        match <B::Simd as Simd>::LANES {
+            4 => self.steps::<<B::Simd as Simd>::f32x4, N>(s, wide, any, stats),
+            _ => self.steps::<B, N>(s, wide, any, stats),
+        }
+    }
+
+    #[inline(always)]
+    fn steps<V: SimdF32, const N: usize>(
         &mut self,
         s: V::Simd,
         wide: &Wide<N>,
         any: bool,
         stats: &mut impl Counters,
     ) -> u32 {
-        let (slots, stacks) = (&mut *self.slots, &mut self.stacks);
-        let (mut at_nodes, mut at_leaves, mut done) = (self.at_nodes, self.at_leaves, 0);
-        let mut left = at_nodes;
+        let Turns { slots, next, stacks, at_nodes, at_leaves } = self;
+        let (slots, mut stacks) = (&mut **slots, stacks.view());
+        let mut left = *at_nodes;
         while left != 0 {
             let i = left.trailing_zeros() as usize;
             left &= left - 1;
@@ -127,26 +151,25 @@ impl Turns {
                 stats.active_rays += 1;
                 stats.box_tests += N as u64;
             });
-            let child = slots[i].at_node::<V, N>(s, wide, stacks);
-            at_leaves |= u32::from(child.is_leaf()) << i;
-            done |= u32::from(child == Child::NONE) << i;
+            next[i] = slots[i].at_node::<V, N>(s, wide, Child(next[i]), &mut stacks).0;
         }
-        at_nodes &= !at_leaves;
-        at_leaves &= !done;
-        if at_nodes == 0 || at_leaves.count_ones() as usize >= RAYS / 2 {
-            let mut left = at_leaves;
-            (at_nodes, at_leaves) = (at_nodes | left, 0);
+        let [leaves, mut done] = find::<V>(s, next);
+        done &= *at_nodes;
+        *at_leaves |= *at_nodes & leaves & !done;
+        *at_nodes &= !leaves;
+        if *at_nodes == 0 || at_leaves.count_ones() as usize >= RAYS / 2 {
+            let mut left = *at_leaves;
             while left != 0 {
                 let i = left.trailing_zeros() as usize;
                 left &= left - 1;
-                let child = slots[i].at_leaf::<V, N>(s, wide, stacks, any, i, stats);
-                at_leaves |= u32::from(child.is_leaf()) << i;
-                done |= u32::from(child == Child::NONE) << i;
+                let child = Child(next[i]);
+                next[i] = slots[i].at_leaf::<V, N>(s, wide, child, &mut stacks, any, i, stats).0;
             }
-            at_nodes &= !at_leaves;
-            at_leaves &= !done;
+            let [leaves, none] = find::<V>(s, next);
+            done |= *at_leaves & none;
+            *at_nodes |= *at_leaves & !leaves;
+            *at_leaves &= leaves & !none;
         }
-        (self.at_nodes, self.at_leaves) = (at_nodes, at_leaves);
         done
     }
 
@@ -158,18 +181,44 @@ impl Turns {
     }
 }
 
-impl Stacks {
-    /// The first of a ray's entries that may be a child.
-    #[inline(always)]
-    fn first(&self, i: usize) -> usize {
-        i * self.room + 1
+/// The rays, each a bit, that go to a leaf next, or nowhere, and those that go nowhere.
+#[inline(always)]
+fn find<V: SimdF32>(s: V::Simd, next: &[u32; RAYS]) -> [u32; 2] {
+    let (mut nodes, mut none) = (0, 0);
+    for (i, next) in next.chunks_exact(V::LANES).enumerate() {
+        let next = V::U32::load(s, next);
+        let (low, zero) = (V::U32::splat(s, 15), V::U32::splat(s, 0));
+        nodes |= (next & low).eq(zero).bitmask() << (i * V::LANES);
+        none |= next.eq(V::U32::splat(s, Child::NONE.0)).bitmask() << (i * V::LANES);
     }
+    [!nodes, none]
+}
 
-    /// Drops those of ray `i`'s entries up to `end` that are entered after `t`, and says where the others
-    /// end.
+impl Stacks {
+    /// What is in them.
     #[inline(always)]
-    fn drop_after<V: SimdF32>(&mut self, s: V::Simd, i: usize, end: usize, t: f32) -> usize {
-        let first = self.first(i);
+    fn view(&mut self) -> View<'_> {
+        let Stacks { children, enters, room } = self;
+        // To the compiler they have one length: where the one has an entry, so has the other.
+        let len = children.len().min(enters.len());
+        Stacks { children: &mut children[..len], enters: &mut enters[..len], room: *room }
+    }
+}
+
+impl<T, U> Stacks<T, U> {
+    /// The lowest of a ray's entries, which is none.
+    #[inline(always)]
+    fn bottom(&self, i: usize) -> usize {
+        i * self.room
+    }
+}
+
+impl View<'_> {
+    /// Drops those of ray `i`'s entries up to `top` that are entered after `t`, and says which is then the
+    /// uppermost.
+    #[inline(always)]
+    fn drop_after<V: SimdF32>(&mut self, s: V::Simd, i: usize, top: usize, t: f32) -> usize {
+        let (first, end) = (self.bottom(i) + 1, top + 1);
         let (mut at, mut kept) = (first, first);
         while at < end {
             let enters = V::load(s, &self.enters[at..]);
@@ -180,7 +229,7 @@ impl Stacks {
             children.permute(order).store(&mut self.children[kept..]);
             (at, kept) = (at + V::LANES, kept + count);
         }
-        kept
+        kept - 1
     }
 }
 
@@ -191,62 +240,81 @@ impl Slot {
         &mut self,
         s: V::Simd,
         wide: &Wide<N>,
-        stacks: &mut Stacks,
+        child: Child,
+        stacks: &mut View<'_>,
     ) -> Child {
-        let Some(node) = wide.nodes().get(self.child.first()) else { return Child::NONE };
-        let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
-        let Crossing { mask, enter } = robust::crossing(s, node, &packet, &frame, packet.tmax);
-        let (children, enters, count) = node.in_order::<V>(s, mask, enter, self.ray.octant());
         let top = self.top as usize;
-        children.store(&mut stacks.children[top..]);
-        enters.store(&mut stacks.enters[top..]);
-        self.go_on(s, wide, stacks, top + count)
+        let window = top..top + 2 * MANY;
+        let (Some(node), Some(children), Some(enters)) = (
+            wide.nodes().get(child.first()),
+            stacks.children.get_mut(window.clone()),
+            stacks.enters.get_mut(window),
+        ) else {
+            return Child::NONE;
+        };
+        let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
+        let mut pushed = 0;
+        for part in node.parts(self.ray.octant()).iter().take(N / V::LANES) {
+            let Crossing { mask, enter } = robust::crossing(s, part, &packet, &frame, packet.tmax);
+            let (some, at, count) = part.in_order::<V>(s, mask, enter);
+            let end = pushed % MANY + 1;
+            some.store(&mut children[end..]);
+            at.store(&mut enters[end..]);
+            pushed += count;
+        }
+        // If it is none of these, then what is below.
+        self.go_on(s, wide, top + pushed, Child(children[pushed % MANY]))
     }
 
-    /// Goes on with the uppermost of so many entries of the stacks.
+    /// Goes on with a child, which is the uppermost entry in the stacks.
     #[inline(always)]
     fn go_on<S: Simd, const N: usize>(
         &mut self,
         s: S,
         wide: &Wide<N>,
-        stacks: &Stacks,
-        end: usize,
+        top: usize,
+        child: Child,
     ) -> Child {
-        let top = end - 1;
-        let child = Child(stacks.children[top]);
-        (self.top, self.child) = (top as u32, child);
+        self.top = (top as u32).wrapping_sub(1);
         wide.prefetch_child(s, child);
         child
     }
 
     /// One step, to a leaf: where to go next.
     #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "strategies and state are arguments")]
     fn at_leaf<V: SimdF32, const N: usize>(
         &mut self,
         s: V::Simd,
         wide: &Wide<N>,
-        stacks: &mut Stacks,
+        child: Child,
+        stacks: &mut View<'_>,
         any: bool,
         i: usize,
         stats: &mut impl Counters,
     ) -> Child {
-        let leaf = self.child.find().err();
+        let leaf = child.find().err();
         let blocks = leaf.as_ref().map_or(&[][..], |slots| wide.blocks(slots));
-        let end = if let [block] = blocks {
-            let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
-            let triangles = BlockLanes::new(block, 0).without_early_out();
-            let found = WithoutBox::test(s, &triangles, &packet, &frame, packet.tmax);
+        if let [block] = blocks {
             stats.count(|stats| stats.triangle_tests += N as u64);
-            match found {
-                Some(found) if found.mask.any() => {
-                    self.hold::<V, N>(s, block, &found, stacks, any, i)
+            let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
+            for part in 0..N / V::LANES {
+                let triangles = BlockLanes::new(block, part * V::LANES);
+                let all = triangles.without_early_out();
+                if let Some(found) = WithoutBox::test(s, &all, &packet, &frame, packet.tmax)
+                    && found.mask.any()
+                {
+                    // A copy, so that what only a hit needs is had where there is one.
+                    let found = Found { ..found };
+                    self.top = self.hold::<V, N>(s, &triangles, &found, stacks, any, i) as u32;
                 }
-                _ => self.top as usize,
             }
         } else {
-            self.test::<V, _, N>(s, wide, stacks, any, i, stats)
-        };
-        self.go_on(s, wide, stacks, end)
+            self.top = self.test::<V, _, N>(s, wide, child, stacks, any, i, stats) as u32;
+        }
+        let top = self.top as usize;
+        let child = Child(stacks.children[top]);
+        self.go_on(s, wide, top, child)
     }
 
     /// Records those of some hits that are in their triangles' own boxes; where the ray's entries of the
@@ -255,9 +323,9 @@ impl Slot {
     fn hold<V: SimdF32, const N: usize>(
         &mut self,
         s: V::Simd,
-        block: &RecordBlock<N>,
+        triangles: &BlockLanes<'_, N>,
         found: &Found<V>,
-        stacks: &mut Stacks,
+        stacks: &mut View<'_>,
         any: bool,
         i: usize,
     ) -> usize {
@@ -271,7 +339,7 @@ impl Slot {
                     i,
                     #[inline(always)]
                     |packet, frame, query| {
-                        tri::hold(s, &BlockLanes::new(block, 0), packet, frame, query, *found);
+                        tri::hold(s, triangles, packet, frame, query, *found);
                     },
                 )
             },
@@ -285,7 +353,8 @@ impl Slot {
         &mut self,
         s: V::Simd,
         wide: &Wide<N>,
-        stacks: &mut Stacks,
+        child: Child,
+        stacks: &mut View<'_>,
         any: bool,
         i: usize,
         stats: &mut C,
@@ -293,7 +362,7 @@ impl Slot {
         s.vectorize(
             #[inline(always)]
             || {
-                let leaf = self.child.find().err().unwrap_or_default();
+                let leaf = child.find().err().unwrap_or_default();
                 self.ask::<V>(
                     s,
                     stacks,
@@ -313,7 +382,7 @@ impl Slot {
     fn ask<V: SimdF32>(
         &mut self,
         s: V::Simd,
-        stacks: &mut Stacks,
+        stacks: &mut View<'_>,
         any: bool,
         i: usize,
         test: impl FnOnce(&Packet<V>, &Coherent<V>, &mut Single<'_, V>),

@@ -134,8 +134,10 @@ pub(super) fn leaf<V: SimdF32, F: Frame<V>, const N: usize>(
 ) {
     for block in wide.blocks(slots) {
         stats.count(|stats| stats.triangle_tests += N as u64);
-        let triangles = BlockLanes::new(block, 0);
-        tri::intersect::<Watertight, V, F, _, _>(s, &triangles, packet, frame, query);
+        for part in 0..N / V::LANES {
+            let triangles = BlockLanes::new(block, part * V::LANES);
+            tri::intersect::<Watertight, V, F, _, _>(s, &triangles, packet, frame, query);
+        }
     }
     for record in wide.spheres(slots) {
         stats.count(|stats| stats.sphere_tests += 1);
