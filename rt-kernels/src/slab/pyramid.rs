@@ -136,27 +136,31 @@ impl<B: SimdF32> Sides<B> {
         }
     }
 
-    /// The rays, with one origin, that may pass the box in that lane: those of which
-    /// [`robust`](super::robust) says so, by the same operations.
+    /// Those of the box in that lane.
     #[inline(always)]
-    pub(crate) fn may_hit<V: SimdF32<Simd = B::Simd>>(
-        &self,
-        s: V::Simd,
-        lane: usize,
-        rays: Reach<V>,
-    ) -> V::Mask {
+    pub(crate) fn one<V: SimdF32<Simd = B::Simd>>(&self, s: V::Simd, lane: usize) -> BoxSides<V> {
         let lane = lane & (B::LANES - 1);
-        let Vec3 { x, y, z } = rays.inv;
         let [nx, ny, nz] = &self.near;
         let [fx, fy, fz] = &self.far;
-        let near_x = V::splat(s, nx.as_ref()[lane]) * x;
-        let near_y = V::splat(s, ny.as_ref()[lane]) * y;
-        let near_z = V::splat(s, nz.as_ref()[lane]) * z;
-        let far_x = V::splat(s, fx.as_ref()[lane]) * x;
-        let far_y = V::splat(s, fy.as_ref()[lane]) * y;
-        let far_z = V::splat(s, fz.as_ref()[lane]) * z;
-        let enter = near_z.max(near_y.max(near_x.max(rays.tmin)));
-        let exit = far_z.min(far_y.min(far_x.min(rays.limit)));
+        let of = |side: &B::Array| V::splat(s, side.as_ref()[lane]);
+        BoxSides { near: Vec3::new(of(nx), of(ny), of(nz)), far: Vec3::new(of(fx), of(fy), of(fz)) }
+    }
+}
+
+/// The mirrored planes of one box, seen from the apex, in all lanes.
+pub(crate) struct BoxSides<V> {
+    near: Vec3<V>,
+    far: Vec3<V>,
+}
+
+impl<V: SimdF32> BoxSides<V> {
+    /// The rays, with one origin, that may pass the box: those of which [`robust`](super::robust) says so, by
+    /// the same operations.
+    #[inline(always)]
+    pub(crate) fn may_hit(&self, s: V::Simd, rays: Reach<V>) -> V::Mask {
+        let (inv, near, far) = (rays.inv, &self.near, &self.far);
+        let enter = (near.z * inv.z).max((near.y * inv.y).max((near.x * inv.x).max(rays.tmin)));
+        let exit = (far.z * inv.z).min((far.y * inv.y).min((far.x * inv.x).min(rays.limit)));
         enter.le(Padded::widen(s, exit))
     }
 }

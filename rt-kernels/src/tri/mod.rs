@@ -36,10 +36,13 @@ pub use sweep::Triangles;
 pub use wald::Wald;
 pub use watertight::Watertight;
 
-use simd4::{SimdF32, SimdMask};
+use simd4::scalar::f32x1;
+use simd4::{Lanes, Scalar, SimdF32, SimdMask};
 
+use self::knobs::{Division, Plain};
+use crate::Hit;
 use crate::geom::{Aabb, Triangle};
-use crate::packet::{Frame, Packet, Query};
+use crate::packet::{Coherent, Frame, Packet, Query};
 
 /// A way to decide whether a ray meets a triangle, and where.
 pub trait TriangleKernel: Send + Sync + 'static {
@@ -106,19 +109,35 @@ pub fn intersect<K: TriangleKernel, V: SimdF32, F: Frame<V>, R: Records<V>, Q: Q
     }
 }
 
-/// Holds hits, which a kernel has [found](Found) without, in their triangles' own boxes, and records them.
+/// The kernel that renders, before what it finds is held in the triangles' own boxes.
+pub(crate) type WithoutBox = Watertight<Division, Plain, true, false>;
+
+/// Of one ray's hits in lanes, which [`WithoutBox`] has found, keeps the best in `best` if it is better than
+/// what is there. Each is held in its triangle's own box by itself: mostly there is but one.
 #[inline(always)]
-pub(crate) fn hold<V: SimdF32, F: Frame<V>, R: Records<V>, Q: Query<V>>(
-    s: V::Simd,
-    records: &R,
-    packet: &Packet<V>,
-    frame: &F,
-    query: &mut Q,
-    found: Found<V>,
+pub(crate) fn hold_one_by_one<V: SimdF32, const N: usize>(
+    triangles: &BlockLanes<'_, N>,
+    packet: &Packet<f32x1>,
+    frame: &Coherent<f32x1>,
+    found: &Found<V>,
+    best: &mut Hit,
 ) {
-    let held = own_box::held(s, &records.own_boxes(s), packet, frame, query.limit(), found);
-    if held.mask.any() {
-        query.record(s, held.mask, records.prim(s), held.t, held.u, held.v);
+    let s = Scalar::new();
+    let (t, u, v) = (found.t.to_array(), found.u.to_array(), found.v.to_array());
+    let mut left = found.mask.bitmask();
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize & (V::LANES - 1);
+        left &= left - 1;
+        let one = triangles.one(lane);
+        let [t, u, v] = [&t, &u, &v].map(|lanes| f32x1::splat(s, lanes.as_ref()[lane]));
+        let found = Found { mask: t.eq(t), t, u, v };
+        let limit = f32x1::splat(s, best.t);
+        let held = own_box::held(s, &one.own_boxes(s), packet, frame, limit, found);
+        let prim = Records::<f32x1>::prim(&one, s).lane(0);
+        let hit = Hit { t: held.t.lane(0), prim, u: u.lane(0), v: v.lane(0) };
+        if held.mask.any() && hit.wins(best) {
+            *best = hit;
+        }
     }
 }
 

@@ -21,18 +21,18 @@
 
 use std::ops::Range;
 
-use simd4::{Lanes, Simd, SimdF32, SimdMask};
+use simd4::{Lanes, Scalar, Simd, SimdF32, SimdMask};
 
 use super::turns::Turns;
 use super::wide;
 use crate::Counters;
 use crate::bvh::layout::{Child, Wide, WideNode};
-use crate::packet::{Ask, Chunk, Hits, LARGE, LargePacket, Rays, Single};
+use crate::packet::{Ask, Chunk, Hits, LARGE, LargePacket, OwnBoxes, Rays, Single};
 use crate::quadric::{cone, sphere};
-use crate::slab::pyramid::{Culling, Sides};
+use crate::slab::pyramid::{BoxSides, Culling, Sides};
 use crate::slab::{interval, robust};
 use crate::tri::edge_volumes::EdgeVolumes;
-use crate::tri::{self, BlockLanes, OwnBoxLanes, Watertight};
+use crate::tri::{self, BlockLanes, Found, OwnBoxLanes, TriangleKernel, Watertight, WithoutBox};
 
 /// The most triangles of a block times the most registers.
 const MAX_PAIRS: usize = 8 * LARGE / 4;
@@ -253,14 +253,12 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
         while left != 0 {
             let lane = left.trailing_zeros() as usize & (N - 1);
             left &= left - 1;
+            let one = W::one::<B, S::f32s, N>(s, node, &seen, lane);
             let mut passing = 0;
-            for g in 0..self.packet.groups::<S::f32s>() {
-                if of_group::<S>(rays, g) == 0 {
-                    continue;
-                }
+            for first in registers::<S>(rays) {
                 self.stats.count(|stats| stats.box_tests += S::LANES as u64);
-                let may_hit = W::may_hit::<B, S::f32s, N>(s, node, &seen, lane, &self.packet, g);
-                passing |= u64::from(may_hit.bitmask()) << (g * S::LANES % LARGE);
+                let may_hit = W::may_hit(s, &one, &self.packet, first / S::LANES);
+                passing |= u64::from(may_hit.bitmask()) << first;
             }
             passing &= rays;
             children.rays[lane] = passing;
@@ -348,17 +346,47 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     /// Tests rays against the primitives of a leaf one by one.
     #[inline(always)]
     fn leaf_one_by_one<B: SimdF32<Simd = S>>(&mut self, slots: &Range<usize>, mut rays: u64) {
-        let s = self.s;
+        let (s, wide) = (self.s, self.wide);
         self.count_alone(rays);
         while rays != 0 {
             let ray = rays.trailing_zeros() as usize;
             rays &= rays - 1;
-            let (packet, frame) = self.packet.ray::<B>(s, ray);
-            let ask = if self.packet.any() { Ask::Any } else { Ask::Closest };
-            let mut query = Single::from_hit(s, self.packet.hit(ray), ask);
-            wide::leaf(s, self.wide, slots, &packet, &frame, &mut query, self.stats);
-            self.packet.set_hit(ray, query.hit());
+            if wide.blocks(slots).is_empty() {
+                let (packet, frame) = self.packet.ray::<B>(s, ray);
+                let ask = if self.packet.any() { Ask::Any } else { Ask::Closest };
+                let mut query = Single::from_hit(s, self.packet.hit(ray), ask);
+                wide::leaf(s, wide, slots, &packet, &frame, &mut query, self.stats);
+                self.packet.set_hit(ray, query.hit());
+                continue;
+            }
+            match S::LANES {
+                4 => self.ray_at_blocks::<S::f32x4>(slots, ray),
+                _ => self.ray_at_blocks::<B>(slots, ray),
+            }
         }
+    }
+
+    /// Tests a ray against the triangles of a leaf.
+    #[inline(always)]
+    fn ray_at_blocks<V: SimdF32<Simd = S>>(&mut self, slots: &Range<usize>, ray: usize) {
+        let (s, wide) = (self.s, self.wide);
+        let (packet, frame) = self.packet.ray::<V>(s, ray);
+        let mut hit = self.packet.hit(ray);
+        for block in wide.blocks(slots) {
+            self.stats.count(|stats| stats.triangle_tests += N as u64);
+            for part in 0..N / V::LANES {
+                let triangles = BlockLanes::new(block, part * V::LANES);
+                let limit = V::splat(s, hit.t);
+                if let Some(found) = WithoutBox::test(s, &triangles, &packet, &frame, limit)
+                    && found.mask.any()
+                {
+                    let found = Found { ..found };
+                    let (packet, frame) = self.packet.ray(Scalar::new(), ray);
+                    tri::hold_one_by_one(&triangles, &packet, &frame, &found, &mut hit);
+                }
+            }
+        }
+        self.packet.set_hit(ray, hit);
     }
 
     /// Counts those rays that go by themselves for the first time.
@@ -407,6 +435,8 @@ trait Way {
 
     /// What all rays share of the children's boxes.
     type Seen<B: SimdF32>;
+    /// The same of one child, in all lanes.
+    type One<V: SimdF32>;
 
     /// The children that some ray may hit with `t <= limit`, and where none enters before.
     fn candidates<B: SimdF32, const N: usize>(
@@ -416,12 +446,18 @@ trait Way {
         limit: f32,
     ) -> (B::Mask, B, Self::Seen<B>);
 
-    /// The rays of a register that may hit the child in that lane.
-    fn may_hit<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
+    /// The child in that lane.
+    fn one<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
         s: V::Simd,
         node: &WideNode<N>,
         seen: &Self::Seen<B>,
         lane: usize,
+    ) -> Self::One<V>;
+
+    /// The rays of a register that may hit a child.
+    fn may_hit<V: SimdF32>(
+        s: V::Simd,
+        one: &Self::One<V>,
         packet: &LargePacket<'_>,
         g: usize,
     ) -> V::Mask;
@@ -435,6 +471,7 @@ impl Way for Pyramid {
     const FEW_IN_LEAF: u32 = 12;
 
     type Seen<B: SimdF32> = Sides<B>;
+    type One<V: SimdF32> = BoxSides<V>;
 
     #[inline(always)]
     fn candidates<B: SimdF32, const N: usize>(
@@ -448,15 +485,23 @@ impl Way for Pyramid {
     }
 
     #[inline(always)]
-    fn may_hit<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
+    fn one<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
         s: V::Simd,
         _: &WideNode<N>,
         seen: &Sides<B>,
         lane: usize,
+    ) -> BoxSides<V> {
+        seen.one(s, lane)
+    }
+
+    #[inline(always)]
+    fn may_hit<V: SimdF32>(
+        s: V::Simd,
+        one: &BoxSides<V>,
         packet: &LargePacket<'_>,
         g: usize,
     ) -> V::Mask {
-        seen.may_hit(s, lane, packet.reach::<V>(s, g))
+        one.may_hit(s, packet.reach::<V>(s, g))
     }
 }
 
@@ -468,6 +513,7 @@ impl Way for Spread {
     const FEW_IN_LEAF: u32 = LARGE as u32;
 
     type Seen<B: SimdF32> = ();
+    type One<V: SimdF32> = OwnBoxes<V>;
 
     #[inline(always)]
     fn candidates<B: SimdF32, const N: usize>(
@@ -481,17 +527,40 @@ impl Way for Spread {
     }
 
     #[inline(always)]
-    fn may_hit<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
+    fn one<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
         s: V::Simd,
         node: &WideNode<N>,
         (): &(),
         lane: usize,
+    ) -> OwnBoxes<V> {
+        let sides = |[low, high]: [f32; 2]| [V::splat(s, low), V::splat(s, high)];
+        let [x, y, z] = node.aabb(lane).axes;
+        OwnBoxes([sides(x), sides(y), sides(z)])
+    }
+
+    #[inline(always)]
+    fn may_hit<V: SimdF32>(
+        s: V::Simd,
+        one: &OwnBoxes<V>,
         packet: &LargePacket<'_>,
         g: usize,
     ) -> V::Mask {
         let (packet, frame) = packet.group::<V>(s, g);
-        robust::may_hit(s, &node.aabb(lane), &packet, &frame, packet.tmax)
+        robust::may_hit(s, one, &packet, &frame, packet.tmax)
     }
+}
+
+/// The first lanes of the registers that have some of the rays.
+#[inline(always)]
+fn registers<S: Simd>(mut rays: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        if rays == 0 {
+            return None;
+        }
+        let first = rays.trailing_zeros() as usize / S::LANES * S::LANES;
+        rays &= !((u64::MAX >> (LARGE - S::LANES)) << first);
+        Some(first)
+    })
 }
 
 /// The rays of a register, from its first lane on.

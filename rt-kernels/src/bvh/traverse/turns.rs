@@ -21,21 +21,17 @@
 //! Compressed Wide BVHs", 2017, Section 3.2, with all eight orders in the node. The turns, and a step
 //! without guesses, are worked out here.
 
-use simd4::{Lanes, Simd, SimdF32, SimdMask, SimdU32};
+use simd4::{Lanes, Scalar, Simd, SimdF32, SimdMask, SimdU32};
 
 use super::wide;
 use crate::bvh::layout::{Child, Wide, without_gaps};
-use crate::packet::{Alone, Ask, Coherent, Hits, Packet, Query, Single};
+use crate::packet::{Alone, Ask, Coherent, Hits, Packet, Single};
 use crate::slab::{Crossing, robust};
-use crate::tri::knobs::{Division, Plain};
-use crate::tri::{self, BlockLanes, Found, TriangleKernel, Watertight};
+use crate::tri::{self, BlockLanes, Found, TriangleKernel, WithoutBox};
 use crate::{Counters, Hit};
 
 /// How many rays take turns: a bit for each in a `u32`.
 const RAYS: usize = 32;
-
-/// What a hit is before it is held in its triangle's own box.
-type WithoutBox = Watertight<Division, Plain, true, false>;
 
 /// The rays that are on their way.
 pub(crate) struct Turns {
@@ -332,16 +328,9 @@ impl Slot {
         s.vectorize(
             #[inline(always)]
             || {
-                self.ask(
-                    s,
-                    stacks,
-                    any,
-                    i,
-                    #[inline(always)]
-                    |packet, frame, query| {
-                        tri::hold(s, triangles, packet, frame, query, *found);
-                    },
-                )
+                let (packet, frame) = self.ray.packet(Scalar::new(), self.hit.t);
+                tri::hold_one_by_one(triangles, &packet, &frame, found, &mut self.hit);
+                self.drop_behind::<V>(s, stacks, any, i)
             },
         )
     }
@@ -392,7 +381,20 @@ impl Slot {
         let mut query = Single::from_hit(s, self.hit, ask);
         test(&packet, &frame, &mut query);
         self.hit = query.hit();
-        let after = if query.done(s) { f32::NEG_INFINITY } else { self.hit.t };
+        self.drop_behind::<V>(s, stacks, any, i)
+    }
+
+    /// Drops what is behind the ray's hit, or all if any hit is enough; the uppermost entry then.
+    #[inline(always)]
+    fn drop_behind<V: SimdF32>(
+        &self,
+        s: V::Simd,
+        stacks: &mut View<'_>,
+        any: bool,
+        i: usize,
+    ) -> usize {
+        let done = any && self.hit.prim != Hits::NONE;
+        let after = if done { f32::NEG_INFINITY } else { self.hit.t };
         stacks.drop_after::<V>(s, i, self.top as usize, after)
     }
 }
