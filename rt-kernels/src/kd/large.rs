@@ -96,9 +96,9 @@ pub(super) fn trace<S: Simd>(
             break;
         }
         while let Some(class) = chunk.next_class() {
-            let packet = LargePacket::new(chunk, class, any);
+            let (packet, beam) = LargePacket::new::<S::f32s>(s, chunk, class, any);
             Traversal { s, tree, packet, mail, mail_alone, cells, alone: 0, stats }
-                .trace(class.rays);
+                .trace(&beam, class.rays);
         }
         if waited {
             chunk.scatter(hits, buckets.places());
@@ -164,10 +164,9 @@ struct Traversal<'a, 'm, S: Simd> {
 impl<S: Simd> Traversal<'_, '_, S> {
     /// Finds what those rays hit.
     #[inline(always)]
-    fn trace(&mut self, rays: u64) {
+    fn trace(&mut self, beam: &Beam, rays: u64) {
         self.mail.next_packet();
-        let beam = self.packet.beam::<S::f32s>(self.s);
-        let planes = Planes::new(&beam);
+        let planes = Planes::new(beam);
         let tree = self.tree;
         let root = tree.cells.pairs[0].0[0];
         self.enter(&planes, rays);
@@ -210,7 +209,7 @@ impl<S: Simd> Traversal<'_, '_, S> {
                 continue;
             } else {
                 self.stats.node_visits += 1;
-                self.leaf(&beam, node, rays);
+                self.leaf(beam, node, rays);
             }
             step = loop {
                 if top == 0 {

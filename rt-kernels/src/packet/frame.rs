@@ -108,7 +108,7 @@ impl<V: SimdF32> Packet<V> {
     }
 
     #[inline(always)]
-    fn dominant(&self) -> OwnAxes<V::Mask> {
+    pub(super) fn dominant(&self) -> OwnAxes<V::Mask> {
         let (x, y, z) = (self.dir.x.abs(), self.dir.y.abs(), self.dir.z.abs());
         let in_x = x.ge(y) & x.ge(z);
         OwnAxes([in_x, y.ge(z) & !in_x])

@@ -26,13 +26,14 @@ pub struct Chunk {
     dir: [Column<f32>; 3],
     inv: [Column<f32>; 3],
     tmin: Column<f32>,
-    /// With each ray's dominant axis as z, as the next.
-    shear_origin: [Column<f32>; 3],
+    /// With the dominant axis of the class that is traced as z, or with each ray's own, if they are to go
+    /// [by themselves](Chunk::part).
     shear: [Column<f32>; 3],
     /// The magnitudes of the reciprocals, with the dominant axis of the class that is traced as z.
     inv_abs: [Column<f32>; 3],
     hits: Found,
-    /// A bit for each axis on which the direction is negative, x lowest; above them the dominant axis.
+    /// Of rays that are to go by themselves a bit for each axis on which the direction is negative, x lowest;
+    /// above them the dominant axis.
     signs_and_axis: Column<u32>,
     /// Rays with a negative direction, by axis.
     negative: [u64; 3],
@@ -69,7 +70,6 @@ impl Default for Chunk {
             dir: [column; 3],
             inv: [column; 3],
             tmin: column,
-            shear_origin: [column; 3],
             shear: [column; 3],
             inv_abs: [column; 3],
             hits: Found { t: column, u: column, v: column, prim: [0; LARGE] },
@@ -87,11 +87,12 @@ impl Chunk {
     pub fn load<V: SimdF32>(&mut self, s: V::Simd, rays: &Rays, first: usize, most: usize) {
         self.count = (rays.len() - first).min(most).min(LARGE);
         (self.negative, self.dominant, self.left) = ([0; 3], [0; 2], 0);
+        let rays = rays.part(first, self.count);
         let mut at = 0;
         while at < self.count {
-            let packet = Packet::<V>::load(s, rays, first + at);
+            let packet = Packet::<V>::load_part(s, &rays, at);
             let [x, y, z] = packet.negative(s);
-            let (shear, OwnAxes([in_x, in_y])) = packet.own_shear();
+            let OwnAxes([in_x, in_y]) = packet.dominant();
             self.negative[0] |= u64::from(x.bitmask()) << at;
             self.negative[1] |= u64::from(y.bitmask()) << at;
             self.negative[2] |= u64::from(z.bitmask()) << at;
@@ -101,18 +102,32 @@ impl Chunk {
             put3(&mut self.origin, at, packet.origin);
             put3(&mut self.dir, at, packet.dir);
             put3(&mut self.inv, at, packet.inv);
-            put3(&mut self.shear_origin, at, shear.origin);
-            put3(&mut self.shear, at, Vec3::new(shear.x, shear.y, shear.z));
-            let bit = |mask, bits| V::U32::select(mask, V::U32::splat(s, bits), V::U32::splat(s, 0));
-            let axis = V::U32::splat(s, 2 << 3) ^ bit(in_x, 2 << 3) ^ bit(in_y, 3 << 3);
-            put(&mut self.signs_and_axis, at, axis | bit(x, 1) | bit(y, 2) | bit(z, 4));
             put(&mut self.tmin, at, packet.tmin);
             put(&mut self.hits.t, at, packet.tmax);
             put(&mut self.hits.prim, at, V::U32::splat(s, Hits::NONE));
             at += V::LANES;
         }
-        // A register may have loaded some of those that come after.
+        // Lanes beyond the last ray are active nowhere, but their signs are any.
         self.left &= u64::MAX >> (LARGE - self.count.max(1));
+    }
+
+    /// Takes the rays that are in no class yet, of which each is to go [by itself](Chunk::alone).
+    #[inline(always)]
+    pub(crate) fn part<V: SimdF32>(&mut self, s: V::Simd) -> u64 {
+        for g in 0..self.groups::<V>() {
+            let at = g * V::LANES;
+            let (origin, dir) = (get3(s, &self.origin, at), get3(s, &self.dir, at));
+            let inv = get3(s, &self.inv, at);
+            let packet: Packet<V> =
+                Packet { origin, dir, inv, tmin: get(s, &self.tmin, at), tmax: dir.x };
+            let [x, y, z] = packet.negative(s);
+            let (shear, OwnAxes([in_x, in_y])) = packet.own_shear();
+            let bit = |mask, bits| V::U32::select(mask, V::U32::splat(s, bits), V::U32::splat(s, 0));
+            let axis = V::U32::splat(s, 2 << 3) ^ bit(in_x, 2 << 3) ^ bit(in_y, 3 << 3);
+            put(&mut self.signs_and_axis, at, axis | bit(x, 1) | bit(y, 2) | bit(z, 4));
+            put3(&mut self.shear, at, Vec3::new(shear.x, shear.y, shear.z));
+        }
+        std::mem::take(&mut self.left)
     }
 
     /// The number of registers that hold the rays.
@@ -159,19 +174,25 @@ impl Chunk {
         mixed
     }
 
-    /// One of the rays, whatever its class.
+    /// One of the rays that are to go by themselves.
     #[inline(always)]
     pub(crate) fn alone(&self, ray: usize) -> Alone {
+        let bits = self.signs_and_axis[ray % LARGE];
+        self.alone_in(ray, bits & 7, SameAxis::new((bits >> 3) as usize))
+    }
+
+    #[inline(always)]
+    fn alone_in(&self, ray: usize, octant: u32, axes: SameAxis) -> Alone {
         let ray = ray % LARGE;
         let of = |[x, y, z]: &[Column<f32>; 3]| [x[ray], y[ray], z[ray]];
         Alone {
             origin: of(&self.origin),
             inv: of(&self.inv),
             tmin: self.tmin[ray],
-            octant: self.signs_and_axis[ray] & 7,
+            octant,
             dir: of(&self.dir),
-            axes: SameAxis::new((self.signs_and_axis[ray] >> 3) as usize),
-            shear_origin: of(&self.shear_origin),
+            axes,
+            shear_origin: axes.order().map(|axis| self.origin[axis.min(2)][ray]),
             shear: of(&self.shear),
         }
     }
@@ -180,12 +201,6 @@ impl Chunk {
     #[inline(always)]
     pub(crate) fn hit(&self, ray: usize) -> Hit {
         self.hits.get(ray)
-    }
-
-    /// Takes the rays that are in no class yet.
-    #[inline(always)]
-    pub(crate) fn take_left(&mut self) -> u64 {
-        std::mem::take(&mut self.left)
     }
 
     /// Writes what all rays have found; ray `first` is the first.
@@ -260,33 +275,43 @@ pub struct LargePacket<'a> {
 }
 
 impl<'a> LargePacket<'a> {
-    /// The rays of that class, for the closest hits or for `any`.
+    /// The rays of that class, for the closest hits or for `any`, and what is known of all of them.
     #[inline(always)]
-    pub fn new(chunk: &'a mut Chunk, class: Class, any: bool) -> Self {
-        LargePacket { chunk, class, any }
-    }
-
-    /// What is known of all rays.
-    #[inline(always)]
-    pub fn beam<V: SimdF32>(&mut self, s: V::Simd) -> Beam {
-        let (chunk, class) = (&mut *self.chunk, self.class);
+    pub fn new<V: SimdF32>(s: V::Simd, chunk: &'a mut Chunk, class: Class, any: bool) -> (Self, Beam) {
+        let axes = class.axes.order().map(|axis| axis.min(2));
+        let [kx, ky, kz] = axes;
+        let lead = class.rays.trailing_zeros() as usize % LARGE;
         let mut bounds = [[V::splat(s, f32::INFINITY), V::splat(s, f32::NEG_INFINITY)]; 8];
         for g in 0..chunk.groups::<V>() {
             let at = g * V::LANES;
-            let lanes = lanes::<V>(s, class.rays >> at);
-            if lanes.none() {
+            let all = u64::MAX >> (LARGE - V::LANES);
+            let some = class.rays >> at & all;
+            if some == 0 {
                 continue;
             }
-            let origin = class.axes.last(get3::<V>(s, &chunk.origin, at));
-            let inv = class.axes.last(get3::<V>(s, &chunk.inv, at));
-            let shear = get3::<V>(s, &chunk.shear, at);
-            let inv = Vec3::new(inv.x.abs(), inv.y.abs(), inv.z.abs());
+            let [x, y, z] = get_by::<V>(s, &chunk.origin, axes, at);
+            let [dir_x, dir_y, dir_z] = get_by::<V>(s, &chunk.dir, axes, at);
+            let [inv_x, inv_y, inv_z] = get_by::<V>(s, &chunk.inv, axes, at);
+            let shear = Vec3::new(dir_x / dir_z, dir_y / dir_z, inv_z);
+            let inv = Vec3::new(inv_x.abs(), inv_y.abs(), inv_z.abs());
+            put3(&mut chunk.shear, at, shear);
             put3(&mut chunk.inv_abs, at, inv);
-            let Vec3 { x, y, z } = origin;
-            let values = [x, y, z, inv.x, inv.y, inv.z, shear.x, shear.y];
+            let mut values = [x, y, z, inv.x, inv.y, inv.z, shear.x, shear.y];
+            if some != all {
+                // What is not in the class is as its first ray is, of which all is known by now.
+                let ([x, y, z], inv, shear) = (&chunk.origin, &chunk.inv_abs, &chunk.shear);
+                let [origin_x, origin_y, origin_z] = [[x, y, z][kx], [x, y, z][ky], [x, y, z][kz]];
+                let columns = [
+                    origin_x, origin_y, origin_z, &inv[0], &inv[1], &inv[2], &shear[0], &shear[1],
+                ];
+                let lanes = lanes::<V>(s, some);
+                for (value, column) in values.iter_mut().zip(columns) {
+                    *value = lanes.select(*value, V::splat(s, column[lead]));
+                }
+            }
             for ([least, greatest], value) in bounds.iter_mut().zip(values) {
-                *least = lanes.select(least.min(value), *least);
-                *greatest = lanes.select(greatest.max(value), *greatest);
+                *least = least.min(value);
+                *greatest = greatest.max(value);
             }
         }
         let mut ends = [[0.0; 2]; 8];
@@ -294,15 +319,14 @@ impl<'a> LargePacket<'a> {
             *ends = [least.reduce_min(), greatest.reduce_max()];
         }
         let [x, y, z, inv_x, inv_y, inv_z, slope_x, slope_y] = ends;
-        let axes = class.axes.order();
-        let [kx, ky, kz] = axes;
-        Beam {
+        let beam = Beam {
             axes,
             negative: [class.negative[kx], class.negative[ky], class.negative[kz]],
             origin: [x, y, z],
             inv: [inv_x, inv_y, inv_z],
             slopes: [slope_x, slope_y],
-        }
+        };
+        (LargePacket { chunk, class, any }, beam)
     }
 
     /// Whether one hit is enough.
@@ -394,7 +418,9 @@ impl<'a> LargePacket<'a> {
     /// One of the rays, and what it has found.
     #[inline(always)]
     pub(crate) fn alone(&self, ray: usize) -> (Alone, Hit) {
-        (self.chunk.alone(ray), self.chunk.hit(ray))
+        let Class { negative: [x, y, z], axes, .. } = self.class;
+        let octant = u32::from(x) | u32::from(y) << 1 | u32::from(z) << 2;
+        (self.chunk.alone_in(ray, octant, axes), self.chunk.hit(ray))
     }
 
     /// Takes what a ray has found by itself, if it is better than what it has.
@@ -497,6 +523,17 @@ fn put<L: Lanes>(column: &mut Column<L::Elem>, at: usize, lanes: L) {
 #[inline(always)]
 fn get3<V: SimdF32>(s: V::Simd, [x, y, z]: &[Column<f32>; 3], at: usize) -> Vec3<V> {
     Vec3::new(get(s, x, at), get(s, y, at), get(s, z, at))
+}
+
+/// In the order of some axes.
+#[inline(always)]
+fn get_by<V: SimdF32>(
+    s: V::Simd,
+    columns: &[Column<f32>; 3],
+    [x, y, z]: [usize; 3],
+    at: usize,
+) -> [V; 3] {
+    [get(s, &columns[x], at), get(s, &columns[y], at), get(s, &columns[z], at)]
 }
 
 #[inline(always)]

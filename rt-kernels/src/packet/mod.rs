@@ -52,16 +52,22 @@ impl<V: SimdF32> Packet<V> {
     /// The rays from `first` on, as many as there are lanes; lanes beyond the last ray hit nothing.
     #[inline(always)]
     pub fn load(s: V::Simd, rays: &Rays, first: usize) -> Self {
-        if rays.len() - first >= V::LANES {
-            Packet::load_with::<Whole>(s, rays, first)
+        Packet::load_part(s, &rays.part(first, rays.len() - first), 0)
+    }
+
+    /// The same from these components of some rays, which are as many of each.
+    #[inline(always)]
+    pub(crate) fn load_part(s: V::Simd, components: &[&[f32]; 8], first: usize) -> Self {
+        if components[0].len() - first >= V::LANES {
+            Packet::load_with::<Whole>(s, components, first)
         } else {
-            Packet::load_with::<Part>(s, rays, first)
+            Packet::load_with::<Part>(s, components, first)
         }
     }
 
     #[inline(always)]
-    fn load_with<L: Load>(s: V::Simd, rays: &Rays, first: usize) -> Self {
-        let [x, y, z, dx, dy, dz, tmin, tmax] = rays.components();
+    fn load_with<L: Load>(s: V::Simd, components: &[&[f32]; 8], first: usize) -> Self {
+        let [x, y, z, dx, dy, dz, tmin, tmax] = components;
         let origin = Vec3::new(L::load(s, x, first), L::load(s, y, first), L::load(s, z, first));
         let dir = Vec3::new(L::load(s, dx, first), L::load(s, dy, first), L::load(s, dz, first));
         Packet::new(s, origin, dir, L::load(s, tmin, first), L::load(s, tmax, first))
@@ -125,6 +131,7 @@ impl Load for Part {
 
 #[inline(always)]
 fn finite<V: SimdF32>(s: V::Simd, v: Vec3<V>) -> V::Mask {
-    let infinity = V::splat(s, f32::INFINITY);
-    v.x.abs().lt(infinity) & v.y.abs().lt(infinity) & v.z.abs().lt(infinity)
+    // 0 times what is not finite is NaN.
+    let zero = V::splat(s, 0.0);
+    (v.x * zero + v.y * zero + v.z * zero).eq(zero)
 }

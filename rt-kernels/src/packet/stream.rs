@@ -62,10 +62,21 @@ impl Rays {
         }
     }
 
-    /// All components.
+    /// All components of so many rays from `first` on.
     #[inline(always)]
-    pub(super) fn components(&self) -> &[Vec<f32>; 8] {
-        &self.components
+    pub(super) fn part(&self, first: usize, count: usize) -> [&[f32]; 8] {
+        let [a, b, c, d, e, f, g, h] = &self.components;
+        let rays = first..first + count;
+        [
+            &a[rays.clone()],
+            &b[rays.clone()],
+            &c[rays.clone()],
+            &d[rays.clone()],
+            &e[rays.clone()],
+            &f[rays.clone()],
+            &g[rays.clone()],
+            &h[rays],
+        ]
     }
 }
 

@@ -27,7 +27,7 @@ use super::turns::Turns;
 use super::wide;
 use crate::Counters;
 use crate::bvh::layout::{Child, Wide, WideNode};
-use crate::packet::{Ask, Chunk, Hits, LARGE, LargePacket, OwnBoxes, Rays, Single};
+use crate::packet::{Ask, Beam, Chunk, Hits, LARGE, LargePacket, OwnBoxes, Rays, Single};
 use crate::quadric::{cone, sphere};
 use crate::slab::pyramid::{BoxSides, Culling, Sides};
 use crate::slab::{interval, robust};
@@ -94,7 +94,7 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
         chunk.load::<S::f32s>(s, rays, first, most);
         if chunk.is_mixed() {
             chunk.store(hits, first);
-            let mut left = chunk.take_left();
+            let mut left = chunk.part::<S::f32s>(s);
             done.count(|stats| stats.rays_alone += u64::from(left.count_ones()));
             while left != 0 {
                 while turns.full() {
@@ -106,7 +106,7 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
             }
         } else {
             while let Some(class) = chunk.next_class() {
-                let packet = LargePacket::new(chunk, class, any);
+                let (packet, beam) = LargePacket::new::<S::f32s>(s, chunk, class, any);
                 let (large, turns, hits, stats) =
                     (&mut **large, &mut *turns, &mut *hits, &mut done);
                 let (alone, on_way) = (0, 0);
@@ -123,7 +123,7 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
                     on_way,
                     stats,
                 }
-                .trace::<B>(class.rays);
+                .trace::<B>(&beam, class.rays);
             }
             chunk.store(hits, first);
         }
@@ -167,12 +167,11 @@ pub(super) struct Traversal<'a, S: Simd, C: Counters, const N: usize> {
 impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     /// Finds what those rays hit.
     #[inline(always)]
-    fn trace<B: SimdF32<Simd = S>>(&mut self, rays: u64) {
-        let beam = self.packet.beam::<S::f32s>(self.s);
+    fn trace<B: SimdF32<Simd = S>>(&mut self, beam: &Beam, rays: u64) {
         if beam.has_apex() {
-            self.run::<B, Pyramid>(&Culling::new(&beam), rays);
+            self.run::<B, Pyramid>(&Culling::new(beam), rays);
         } else {
-            self.run::<B, Spread>(&Culling::new(&beam), rays);
+            self.run::<B, Spread>(&Culling::new(beam), rays);
         }
     }
 
