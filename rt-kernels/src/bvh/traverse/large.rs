@@ -32,7 +32,7 @@ use crate::quadric::{cone, sphere};
 use crate::slab::pyramid::{BoxSides, Culling, Sides};
 use crate::slab::{interval, robust};
 use crate::tri::edge_volumes::EdgeVolumes;
-use crate::tri::{self, BlockLanes, Found, OwnBoxLanes, TriangleKernel, Watertight, WithoutBox};
+use crate::tri::{self, BlockLanes, Found, OwnBoxLanes, RecordBlock, TriangleKernel, Watertight, WithoutBox};
 
 /// The most triangles of a block times the most registers.
 const MAX_PAIRS: usize = 8 * LARGE / 4;
@@ -181,15 +181,27 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
         let wide = self.wide;
         let few = W::FEW.min(self.most as u32 / 2);
         let mut next = Entry { child: Child::ROOT, enter: 0.0, rays };
-        let mut top = 0;
+        let mut limit = f32::INFINITY;
+        // The entries below may have been overtaken by hits.
+        let (mut top, mut overtaken) = (0, 1);
         loop {
-            let (rays, limit) = self.active(&next);
+            let mut rays = next.rays;
+            if top < overtaken {
+                (rays, limit) = self.active(&next);
+                overtaken = top;
+            }
             match next.child.find() {
-                Ok(_) if rays.count_ones() <= few => self.one_by_one::<B>(next.child, rays),
-                Err(slots) if rays.count_ones() <= W::FEW_IN_LEAF => {
-                    self.leaf_one_by_one::<B>(&slots, rays);
+                Ok(_) if rays.count_ones() <= few => {
+                    self.one_by_one::<B>(next.child, rays);
+                    overtaken = top;
                 }
-                Err(slots) => self.leaf::<B>(culling, &slots, rays),
+                Err(slots) => {
+                    match rays.count_ones() <= W::FEW_IN_LEAF {
+                        true => self.leaf_one_by_one::<B>(&slots, rays),
+                        false => self.leaf::<B>(culling, &slots, rays),
+                    }
+                    overtaken = top;
+                }
                 Ok(node) => {
                     let Some(node) = wide.nodes().get(node) else { break };
                     self.stats.count(|stats| stats.node_visits += 1);
@@ -345,47 +357,51 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
     /// Tests rays against the primitives of a leaf one by one.
     #[inline(always)]
     fn leaf_one_by_one<B: SimdF32<Simd = S>>(&mut self, slots: &Range<usize>, mut rays: u64) {
-        let (s, wide) = (self.s, self.wide);
         self.count_alone(rays);
+        let (s, wide) = (self.s, self.wide);
+        for block in wide.blocks(slots) {
+            match S::LANES {
+                4 => self.block_one_by_one::<S::f32x4>(block, rays),
+                _ => self.block_one_by_one::<B>(block, rays),
+            }
+        }
+        if !wide.blocks(slots).is_empty() {
+            return;
+        }
         while rays != 0 {
             let ray = rays.trailing_zeros() as usize;
             rays &= rays - 1;
-            if wide.blocks(slots).is_empty() {
-                let (packet, frame) = self.packet.ray::<B>(s, ray);
-                let ask = if self.packet.any() { Ask::Any } else { Ask::Closest };
-                let mut query = Single::from_hit(s, self.packet.hit(ray), ask);
-                wide::leaf(s, wide, slots, &packet, &frame, &mut query, self.stats);
-                self.packet.set_hit(ray, query.hit());
-                continue;
-            }
-            match S::LANES {
-                4 => self.ray_at_blocks::<S::f32x4>(slots, ray),
-                _ => self.ray_at_blocks::<B>(slots, ray),
-            }
+            let (packet, frame) = self.packet.ray::<B>(s, ray);
+            let ask = if self.packet.any() { Ask::Any } else { Ask::Closest };
+            let mut query = Single::from_hit(s, self.packet.hit(ray), ask);
+            wide::leaf(s, wide, slots, &packet, &frame, &mut query, self.stats);
+            self.packet.set_hit(ray, query.hit());
         }
     }
 
-    /// Tests a ray against the triangles of a leaf.
+    /// Tests rays against the triangles of a block one by one.
     #[inline(always)]
-    fn ray_at_blocks<V: SimdF32<Simd = S>>(&mut self, slots: &Range<usize>, ray: usize) {
-        let (s, wide) = (self.s, self.wide);
-        let (packet, frame) = self.packet.ray::<V>(s, ray);
-        let mut hit = self.packet.hit(ray);
-        for block in wide.blocks(slots) {
+    fn block_one_by_one<V: SimdF32<Simd = S>>(&mut self, block: &RecordBlock<N>, mut rays: u64) {
+        let s = self.s;
+        while rays != 0 {
+            let ray = rays.trailing_zeros() as usize;
+            rays &= rays - 1;
             self.stats.count(|stats| stats.triangle_tests += N as u64);
+            let (packet, frame) = self.packet.ray::<V>(s, ray);
             for part in 0..N / V::LANES {
                 let triangles = BlockLanes::new(block, part * V::LANES);
-                let limit = V::splat(s, hit.t);
+                let limit = V::splat(s, self.packet.hit(ray).t);
                 if let Some(found) = WithoutBox::test(s, &triangles, &packet, &frame, limit)
                     && found.mask.any()
                 {
                     let found = Found { ..found };
                     let (packet, frame) = self.packet.ray(Scalar::new(), ray);
+                    let mut hit = self.packet.hit(ray);
                     tri::hold_one_by_one(&triangles, &packet, &frame, &found, &mut hit);
+                    self.packet.set_hit(ray, hit);
                 }
             }
         }
-        self.packet.set_hit(ray, hit);
     }
 
     /// Counts those rays that go by themselves for the first time.
