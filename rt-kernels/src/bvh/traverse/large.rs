@@ -239,9 +239,9 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
         let enter = S::f32s::splat(s, entry.enter);
         let mut greatest = S::f32s::splat(s, f32::NEG_INFINITY);
         let mut rays = 0;
-        for g in 0..self.packet.groups::<S::f32s>() {
-            let limit = self.packet.limit::<S::f32s>(s, g);
-            rays |= u64::from(limit.ge(enter).bitmask()) << (g * S::LANES % LARGE);
+        for first in registers::<S>(entry.rays) {
+            let limit = self.packet.limit::<S::f32s>(s, first / S::LANES);
+            rays |= u64::from(limit.ge(enter).bitmask()) << first;
             greatest = greatest.max(limit);
         }
         (rays & entry.rays, greatest.reduce_max())
