@@ -34,9 +34,6 @@ use crate::slab::{interval, robust};
 use crate::tri::edge_volumes::EdgeVolumes;
 use crate::tri::{self, BlockLanes, Found, OwnBoxLanes, RecordBlock, TriangleKernel, Watertight, WithoutBox};
 
-/// The most triangles of a block times the most registers.
-const MAX_PAIRS: usize = 8 * LARGE / 4;
-
 /// Rays, and where to put what they hit.
 pub(crate) struct Batch<'a> {
     pub(crate) rays: &'a Rays,
@@ -285,51 +282,47 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
         for block in wide.blocks(slots) {
             let lanes = BlockLanes::new(block, 0);
             let volumes = EdgeVolumes::<B>::new(s, &lanes, culling.beam, culling.apex());
-            // The pairs of a triangle and a register that are not certain to miss each other.
-            let mut pairs = [(0, 0); MAX_PAIRS];
-            let mut count = 0;
-            let mut left = volumes.lanes;
+            // The rays that are not certain to miss each triangle.
+            let mut passing = [0; N];
+            let (mut left, mut some) = (volumes.lanes, 0);
             while left != 0 {
-                let lane = left.trailing_zeros() as usize;
+                let lane = left.trailing_zeros() as usize & (N - 1);
                 left &= left - 1;
                 let triangle = volumes.spread::<S::f32s>(s, lane);
-                for g in 0..self.packet.groups::<S::f32s>() {
-                    let rays = of_group::<S>(rays, g);
-                    if rays == 0 {
-                        continue;
-                    }
+                for first in registers::<S>(rays) {
                     self.stats.count(|stats| stats.triangle_tests += S::LANES as u64);
-                    let [x, y] = self.packet.slopes(s, g);
-                    pairs[count % MAX_PAIRS] = (lane as u8, g as u8);
-                    count += usize::from(triangle.may_hit(x, y).bitmask() & rays != 0);
+                    let [x, y] = self.packet.slopes(s, first / S::LANES);
+                    passing[lane] |= u64::from(triangle.may_hit(x, y).bitmask()) << first;
                 }
+                passing[lane] &= rays;
+                some |= u32::from(passing[lane] != 0) << lane;
             }
-            if count == 0 {
+            if some == 0 {
                 continue;
             }
             let own_boxes = OwnBoxLanes::<B>::new(s, &lanes);
-            for &(lane, g) in &pairs[..count.min(MAX_PAIRS)] {
-                let (record, g) = (own_boxes.one(block, lane.into()), g.into());
-                let (packet, frame) = self.packet.group::<S::f32s>(s, g);
-                let mut query = self.packet.query::<S::f32s>(s, g);
-                tri::intersect::<Watertight, _, _, _, _>(s, &record, &packet, &frame, &mut query);
+            while some != 0 {
+                let lane = some.trailing_zeros() as usize & (N - 1);
+                some &= some - 1;
+                let record = own_boxes.one(block, lane);
+                for g in registers::<S>(passing[lane]).map(|first| first / S::LANES) {
+                    let (packet, frame) = self.packet.group::<S::f32s>(s, g);
+                    let mut query = self.packet.query::<S::f32s>(s, g);
+                    tri::intersect::<Watertight, _, _, _, _>(
+                        s, &record, &packet, &frame, &mut query,
+                    );
+                }
             }
         }
         for record in wide.spheres(slots) {
-            for g in 0..self.packet.groups::<S::f32s>() {
-                if of_group::<S>(rays, g) == 0 {
-                    continue;
-                }
+            for g in registers::<S>(rays).map(|first| first / S::LANES) {
                 self.stats.count(|stats| stats.sphere_tests += S::LANES as u64);
                 let (packet, frame) = self.packet.group::<S::f32s>(s, g);
                 sphere::intersect(s, record, &packet, &frame, &mut self.packet.query(s, g));
             }
         }
         for record in wide.cones(slots) {
-            for g in 0..self.packet.groups::<S::f32s>() {
-                if of_group::<S>(rays, g) == 0 {
-                    continue;
-                }
+            for g in registers::<S>(rays).map(|first| first / S::LANES) {
                 self.stats.count(|stats| stats.cone_tests += S::LANES as u64);
                 let (packet, frame) = self.packet.group::<S::f32s>(s, g);
                 cone::intersect(s, record, &packet, &frame, &mut self.packet.query(s, g));
@@ -576,10 +569,4 @@ fn registers<S: Simd>(mut rays: u64) -> impl Iterator<Item = usize> {
         rays &= !((u64::MAX >> (LARGE - S::LANES)) << first);
         Some(first)
     })
-}
-
-/// The rays of a register, from its first lane on.
-#[inline(always)]
-fn of_group<S: Simd>(rays: u64, g: usize) -> u32 {
-    (rays >> (g * S::LANES % LARGE)) as u32 & u32::MAX >> (32 - S::LANES)
 }
