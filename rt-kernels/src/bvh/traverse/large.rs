@@ -560,13 +560,19 @@ impl Way for Spread {
 
 /// The first lanes of the registers that have some of the rays.
 #[inline(always)]
-fn registers<S: Simd>(mut rays: u64) -> impl Iterator<Item = usize> {
+fn registers<S: Simd>(rays: u64) -> impl Iterator<Item = usize> {
+    // To the lowest bit of each register come all of its bits.
+    let (mut left, mut shift) = (rays, 1);
+    while shift < S::LANES {
+        left |= left >> shift;
+        shift *= 2;
+    }
+    left &= u64::MAX / (u64::MAX >> (LARGE - S::LANES));
     std::iter::from_fn(move || {
-        if rays == 0 {
-            return None;
-        }
-        let first = rays.trailing_zeros() as usize / S::LANES * S::LANES;
-        rays &= !((u64::MAX >> (LARGE - S::LANES)) << first);
-        Some(first)
+        let first = left.trailing_zeros() as usize;
+        (left != 0).then(|| {
+            left &= left - 1;
+            first % LARGE
+        })
     })
 }
