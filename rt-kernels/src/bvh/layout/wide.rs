@@ -432,38 +432,49 @@ mod tests {
         once_each::<8>();
     }
 
-    /// In each of some masks and each octant: every lane of the mask once, the last first, and with it where
-    /// it is entered.
+    /// In each of some masks and each octant: every lane of the mask once, one half after the other, each from
+    /// the last to the first, and with it where it is entered.
     #[inline(always)]
     fn ordered<V: SimdF32, const N: usize>(s: V::Simd, wide: &Wide<N>) {
-        let enter = V::iota(s);
         for node in &wide.nodes {
-            let there = (0..N).filter(|&lane| node.child(lane) != Child::NONE);
-            let there = there.fold(0, |lanes, lane| lanes | 1_u32 << lane);
+            let is_there = |lane: &usize| node.child(*lane) != Child::NONE;
             for (octant, some) in
                 (0..8).flat_map(|octant| [255, 0, 0x5a, 0x81, 4].map(|m| (octant, m)))
             {
-                let lanes = there & some;
-                let mask =
-                    V::Mask::from_array(s, LaneArray::from_fn(|lane| lanes >> lane & 1 == 1));
-                let (children, enters, count) = node.in_order::<V>(s, mask, enter, octant);
-                assert_eq!(count, lanes.count_ones() as usize);
-                let (mut seen, mut before) = (0, f32::INFINITY);
-                for i in 0..count {
-                    let lane = enters.lane(i) as usize;
-                    assert_eq!(Child(children.lane(i)), node.child(lane));
-                    seen |= 1 << lane;
+                let along = |lane: usize| -> f32 {
                     let sides = node.aabb(lane).axes;
-                    let along: f32 = (0..3)
-                        .map(|axis| {
-                            let center = sides[axis][0] + sides[axis][1];
-                            if octant >> axis & 1 == 1 { -center } else { center }
-                        })
-                        .sum();
-                    assert!(along <= before + 1e-5, "octant {octant}: {along} after {before}");
-                    before = along;
+                    let center = |axis: usize| sides[axis][0] + sides[axis][1];
+                    let sign = |axis: usize| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 };
+                    (0..3).map(|axis| center(axis) * sign(axis)).sum()
+                };
+                let mean = |half: usize| -> f32 {
+                    let lanes = (half * 4..half * 4 + 4).filter(is_there);
+                    lanes.clone().map(along).sum::<f32>() / lanes.count() as f32
+                };
+                let mut lanes: Vec<usize> = Vec::new();
+                for part in node.parts(octant).iter().take(N / V::LANES) {
+                    let first = part.first::<V>();
+                    let is_wanted = |lane: usize| is_there(&lane) && some >> lane & 1 == 1;
+                    let mask = LaneArray::from_fn(|lane| is_wanted(first + lane));
+                    let mask = V::Mask::from_array(s, mask);
+                    let enter = V::iota(s) + V::splat(s, first as f32);
+                    let (children, enters, count) = part.in_order::<V>(s, mask, enter);
+                    for i in 0..count {
+                        let lane = enters.lane(i) as usize;
+                        assert_eq!(Child(children.lane(i)), node.child(lane));
+                        lanes.push(lane);
+                    }
                 }
-                assert_eq!(seen, lanes);
+                for two in lanes.windows(2) {
+                    let [later, sooner] = match two[0] / 4 == two[1] / 4 {
+                        true => [along(two[0]), along(two[1])],
+                        false => [mean(two[0] / 4), mean(two[1] / 4)],
+                    };
+                    assert!(sooner <= later + 1e-5, "octant {octant}: {sooner} after {later}");
+                }
+                lanes.sort_unstable();
+                let wanted = (0..N).filter(|&lane| is_there(&lane) && some >> lane & 1 == 1);
+                assert!(lanes.iter().copied().eq(wanted), "octant {octant}: {lanes:?}");
             }
         }
     }
@@ -478,6 +489,7 @@ mod tests {
         #[inline(always)]
         fn both<S: Simd>(s: S, four: &Wide<4>, eight: &Wide<8>) {
             ordered::<S::f32x4, 4>(s, four);
+            ordered::<S::f32x4, 8>(s, eight);
             ordered::<S::f32x8, 8>(s, eight);
         }
         for level in Level::available() {
