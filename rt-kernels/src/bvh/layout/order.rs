@@ -36,49 +36,30 @@ impl<const N: usize> Order<N> {
 
     /// Guesses by the centres of the children's boxes, by axis. What is NaN is not there.
     pub(super) fn of(centers: &[[f32; N]; 3]) -> Self {
+        // How far along the diagonals of the octants they are.
+        let along: [[f32; OCTANTS]; N] = std::array::from_fn(|lane| {
+            let [x, y, z] = centers.each_ref().map(|center| center[lane]);
+            [x + y + z, y - x + z, x - y + z, z - x - y]
+        });
+        let (halves, _) = along.as_chunks::<HALF>();
         let mut words = [0; N];
-        let halves = N / HALF;
-        // What the octants' directions, which are diagonals, are multiplied by.
-        let along = |[x, y, z]: [f32; 3]| [x + y + z, y - x + z, x - y + z, z - x - y];
-        let orders = |half: usize| {
-            let lanes: [[f32; OCTANTS]; HALF] = std::array::from_fn(|lane| {
-                along(centers.each_ref().map(|center| center[half * HALF + lane]))
-            });
-            let mut bits = [0; OCTANTS];
-            for (bit, (a, b)) in PAIRS.into_iter().enumerate() {
-                for octant in 0..OCTANTS {
-                    bits[octant] |= usize::from(lanes[a][octant] > lanes[b][octant]) << bit;
-                }
-            }
-            bits.map(|bits| u32::from(NUMBERS[bits]))
-        };
-        let mean = |half: usize| {
-            centers.each_ref().map(|center| {
-                let there = center[half * HALF..][..HALF].iter().filter(|center| !center.is_nan());
-                there.clone().sum::<f32>() / there.count() as f32
-            })
-        };
-        let lower = orders(0);
-        if halves == 1 {
-            for (word, number) in words.iter_mut().zip(lower) {
-                *word = number << UPPER;
-            }
-            return Order(words);
-        }
-        let (upper, [lower_mean, upper_mean]) = (orders(1), [along(mean(0)), along(mean(1))]);
         for octant in 0..OCTANTS {
-            let numbers = [lower[octant], upper[octant]];
-            let last = usize::from(upper_mean[octant] > lower_mean[octant]);
-            for (half, number) in numbers.into_iter().enumerate() {
-                let upper_last = if last == 1 { UPPER_LAST } else { 0 };
-                words[octant * halves + half] |= (number | upper_last) << UPPER;
-                // Which is last one way is first the other way.
-                let (at, back) = ((half ^ last) * HALF, (half ^ last ^ 1) * HALF);
-                let lanes = |number: u32| ORDERS[number as usize].map(|lane| lane + (half * HALF) as u32);
-                let (one_way, the_other) = (lanes(number), lanes(number ^ 1));
-                for i in 0..HALF {
-                    words[at + i] |= one_way[i] << (3 * octant);
-                    words[back + i] |= the_other[i] << (3 * (7 - octant));
+            let means = halves.iter().map(|half| mean(half.map(|lane| lane[octant])));
+            let last = usize::from(means.is_sorted_by(|lower, upper| upper > lower));
+            let upper_last = UPPER_LAST * last as u32;
+            for (i, half) in halves.iter().enumerate() {
+                let number = number(half.map(|lane| lane[octant]));
+                words[octant * halves.len() + i] |= (number as u32 | upper_last) << UPPER;
+                if N == HALF {
+                    continue;
+                }
+                // The last one way is the first the other way.
+                let ways = [(octant, number, i ^ last), (7 - octant, number ^ 1, i ^ last ^ 1)];
+                for (octant, number, at) in ways {
+                    let words = words[at * HALF..][..HALF].iter_mut();
+                    for (word, lane) in words.zip(ORDERS[number]) {
+                        *word |= (lane + (i * HALF) as u32) << (3 * octant);
+                    }
                 }
             }
         }
@@ -101,6 +82,18 @@ impl<const N: usize> Order<N> {
         let last = if N > HALF { (of(0) / UPPER_LAST) as usize & 1 } else { 0 };
         [last, last ^ 1].map(|half| Half { half, number: of(half) as usize % ROOM })
     }
+}
+
+/// Of those that are not NaN.
+fn mean(lanes: [f32; HALF]) -> f32 {
+    let there = lanes.iter().filter(|lane| !lane.is_nan());
+    there.clone().sum::<f32>() / there.count() as f32
+}
+
+/// The number of the order from the greatest to the least.
+fn number(lanes: [f32; HALF]) -> usize {
+    let bits = PAIRS.map(|(a, b)| usize::from(lanes[a] > lanes[b]));
+    NUMBERS[bits.into_iter().rev().fold(0, |bits, bit| bits << 1 | bit)].into()
 }
 
 /// Four lanes, and their order.
