@@ -122,7 +122,8 @@ impl Chunk {
                 Packet { origin, dir, inv, tmin: get(s, &self.tmin, at), tmax: dir.x };
             let [x, y, z] = packet.negative(s);
             let (shear, OwnAxes([in_x, in_y])) = packet.own_shear();
-            let bit = |mask, bits| V::U32::select(mask, V::U32::splat(s, bits), V::U32::splat(s, 0));
+            let bit =
+                |mask, bits| V::U32::select(mask, V::U32::splat(s, bits), V::U32::splat(s, 0));
             let axis = V::U32::splat(s, 2 << 3) ^ bit(in_x, 2 << 3) ^ bit(in_y, 3 << 3);
             put(&mut self.signs_and_axis, at, axis | bit(x, 1) | bit(y, 2) | bit(z, 4));
             put3(&mut self.shear, at, Vec3::new(shear.x, shear.y, shear.z));
@@ -277,7 +278,12 @@ pub struct LargePacket<'a> {
 impl<'a> LargePacket<'a> {
     /// The rays of that class, for the closest hits or for `any`, and what is known of all of them.
     #[inline(always)]
-    pub fn new<V: SimdF32>(s: V::Simd, chunk: &'a mut Chunk, class: Class, any: bool) -> (Self, Beam) {
+    pub fn new<V: SimdF32>(
+        s: V::Simd,
+        chunk: &'a mut Chunk,
+        class: Class,
+        any: bool,
+    ) -> (Self, Beam) {
         let axes = class.axes.order().map(|axis| axis.min(2));
         let [kx, ky, kz] = axes;
         let lead = class.rays.trailing_zeros() as usize % LARGE;
@@ -301,9 +307,8 @@ impl<'a> LargePacket<'a> {
                 // What is not in the class is as its first ray is, of which all is known by now.
                 let ([x, y, z], inv, shear) = (&chunk.origin, &chunk.inv_abs, &chunk.shear);
                 let [origin_x, origin_y, origin_z] = [[x, y, z][kx], [x, y, z][ky], [x, y, z][kz]];
-                let columns = [
-                    origin_x, origin_y, origin_z, &inv[0], &inv[1], &inv[2], &shear[0], &shear[1],
-                ];
+                let columns =
+                    [origin_x, origin_y, origin_z, &inv[0], &inv[1], &inv[2], &shear[0], &shear[1]];
                 let lanes = lanes::<V>(s, some);
                 for (value, column) in values.iter_mut().zip(columns) {
                     *value = lanes.select(*value, V::splat(s, column[lead]));

@@ -286,9 +286,8 @@ fn open<const N: usize>(inner: Inner<N>, depth: usize) -> Vec<Subtree<N>> {
 fn in_halves<const N: usize>(mut children: Vec<Subtree<N>>) -> Vec<Subtree<N>> {
     if children.len() > 4 {
         let center = |child: &Subtree<N>| child.aabb().min() + child.aabb().max();
-        let centers = children
-            .iter()
-            .fold(Aabb::EMPTY, |all, child| all.union(&Aabb::point(center(child))));
+        let centers =
+            children.iter().fold(Aabb::EMPTY, |all, child| all.union(&Aabb::point(center(child))));
         let axis = centers.extent().max_position();
         children.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
     }

@@ -76,7 +76,7 @@ impl<const N: usize> Order<N> {
     #[inline(always)]
     pub(super) fn halves(&self, octant: u32) -> [Half; 2] {
         let back = octant >> 2 & 1;
-        let first = (octant ^ 7 * back) as usize % OCTANTS * (N / HALF);
+        let first = (octant ^ (7 * back)) as usize % OCTANTS * (N / HALF);
         let back = (UPPER_LAST | 1) * back;
         let of = |half: usize| (self.0[(first + half) % N] >> UPPER) ^ back;
         let last = if N > HALF { (of(0) / UPPER_LAST) as usize & 1 } else { 0 };

@@ -32,7 +32,9 @@ use crate::quadric::{cone, sphere};
 use crate::slab::pyramid::{BoxSides, Culling, Sides};
 use crate::slab::{interval, robust};
 use crate::tri::edge_volumes::EdgeVolumes;
-use crate::tri::{self, BlockLanes, Found, OwnBoxLanes, RecordBlock, TriangleKernel, Watertight, WithoutBox};
+use crate::tri::{
+    self, BlockLanes, Found, OwnBoxLanes, RecordBlock, TriangleKernel, Watertight, WithoutBox,
+};
 
 /// Rays, and where to put what they hit.
 pub(crate) struct Batch<'a> {

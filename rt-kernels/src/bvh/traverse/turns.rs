@@ -14,7 +14,7 @@
 //! triangles are decided as by [one ray at a time](super::wide), and hits do not depend on the order of
 //! visits.
 //!
-//! **The stacks** cannot overflow: as [there](super::wide), and N entries more, since all lanes are written.
+//! **The stacks** cannot overflow: as [there](super::wide), and some entries more, since all lanes are written.
 //!
 //! Source: Wald, Benthin, Boulos, "Getting Rid of Packets", 2008, for the nodes; the order of children by
 //! octants is that of Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through
@@ -25,7 +25,7 @@ use simd4::{Lanes, Scalar, Simd, SimdF32, SimdMask, SimdU32};
 
 use super::wide;
 use crate::bvh::layout::{Child, Wide, without_gaps};
-use crate::packet::{Alone, Ask, Coherent, Hits, Packet, Single};
+use crate::packet::{Alone, Ask, Hits, Single};
 use crate::slab::{Crossing, robust};
 use crate::tri::{self, BlockLanes, Found, TriangleKernel, WithoutBox};
 use crate::{Counters, Hit};
@@ -45,16 +45,19 @@ pub(crate) struct Turns {
 }
 
 /// Of each ray the children that are still to be visited, above one that is none.
-struct Stacks<T = Vec<u32>, U = Vec<f32>> {
-    children: T,
+struct Stacks {
+    children: Vec<u32>,
     /// Where each is entered.
-    enters: U,
+    enters: Vec<f32>,
     /// How many entries are one ray's.
     room: usize,
 }
 
-/// The stacks, borrowed.
-type View<'a> = Stacks<&'a mut [u32], &'a mut [f32]>;
+/// What is in the stacks.
+struct View<'a> {
+    children: &'a mut [u32],
+    enters: &'a mut [f32],
+}
 
 /// More entries than a step at a node looks at. That they are so many, and a power of two, tells the compiler
 /// that all it looks at is there.
@@ -67,7 +70,9 @@ struct Slot {
     ray: Alone,
     /// What it has found.
     hit: Hit,
-    /// Its uppermost entry in the stacks, below its next child. What is above is of no account.
+    /// The lowest of its entries in the stacks, which is none.
+    bottom: u32,
+    /// The uppermost, below its next child. What is above is of no account.
     top: u32,
     /// Its place in the batch.
     place: u32,
@@ -77,7 +82,7 @@ impl Turns {
     /// Room for any rays in that hierarchy.
     pub(crate) fn new<const N: usize>(wide: &Wide<N>) -> Self {
         let hit = Hit { t: 0.0, prim: Hits::NONE, u: 0.0, v: 0.0 };
-        let slot = Slot { ray: Alone::default(), hit, top: 0, place: 0 };
+        let slot = Slot { ray: Alone::default(), hit, bottom: 0, top: 0, place: 0 };
         let room = wide.depth() * (N - 1) + 2 * MANY;
         let (children, enters) = (vec![Child::NONE.0; RAYS * room], vec![0.0; RAYS * room]);
         let stacks = Stacks { children, enters, room };
@@ -103,8 +108,8 @@ impl Turns {
     pub(crate) fn put(&mut self, child: Child, ray: Alone, hit: Hit, place: usize) {
         let free = !(self.at_nodes | self.at_leaves);
         let i = free.trailing_zeros() as usize % RAYS;
-        let top = self.stacks.bottom(i) as u32;
-        self.slots[i] = Slot { ray, hit, top, place: place as u32 };
+        let bottom = (i * self.stacks.room) as u32;
+        self.slots[i] = Slot { ray, hit, bottom, top: bottom, place: place as u32 };
         self.next[i] = child.0;
         let leaf = u32::from(child.is_leaf());
         self.at_nodes |= (leaf ^ 1) << i;
@@ -159,7 +164,7 @@ impl Turns {
                 let i = left.trailing_zeros() as usize;
                 left &= left - 1;
                 let child = Child(next[i]);
-                next[i] = slots[i].at_leaf::<V, N>(s, wide, child, &mut stacks, any, i, stats).0;
+                next[i] = slots[i].at_leaf::<V, N>(s, wide, child, &mut stacks, any, stats).0;
             }
             let [leaves, none] = find::<V>(s, next);
             done |= *at_leaves & none;
@@ -194,27 +199,18 @@ impl Stacks {
     /// What is in them.
     #[inline(always)]
     fn view(&mut self) -> View<'_> {
-        let Stacks { children, enters, room } = self;
-        // To the compiler they have one length: where the one has an entry, so has the other.
-        let len = children.len().min(enters.len());
-        Stacks { children: &mut children[..len], enters: &mut enters[..len], room: *room }
-    }
-}
-
-impl<T, U> Stacks<T, U> {
-    /// The lowest of a ray's entries, which is none.
-    #[inline(always)]
-    fn bottom(&self, i: usize) -> usize {
-        i * self.room
+        // So the compiler knows: where the one has an entry, the other has.
+        let len = self.children.len().min(self.enters.len());
+        View { children: &mut self.children[..len], enters: &mut self.enters[..len] }
     }
 }
 
 impl View<'_> {
-    /// Drops those of ray `i`'s entries up to `top` that are entered after `t`, and says which is then the
-    /// uppermost.
+    /// Drops those entries above `bottom` and up to `top` that are entered after `t`, and says which is then
+    /// the uppermost.
     #[inline(always)]
-    fn drop_after<V: SimdF32>(&mut self, s: V::Simd, i: usize, top: usize, t: f32) -> usize {
-        let (first, end) = (self.bottom(i) + 1, top + 1);
+    fn drop_after<V: SimdF32>(&mut self, s: V::Simd, bottom: u32, top: u32, t: f32) -> u32 {
+        let (first, end) = (bottom as usize + 1, top as usize + 1);
         let (mut at, mut kept) = (first, first);
         while at < end {
             let enters = V::load(s, &self.enters[at..]);
@@ -225,7 +221,7 @@ impl View<'_> {
             children.permute(order).store(&mut self.children[kept..]);
             (at, kept) = (at + V::LANES, kept + count);
         }
-        kept - 1
+        kept as u32 - 1
     }
 }
 
@@ -278,7 +274,6 @@ impl Slot {
 
     /// One step, to a leaf: where to go next.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "strategies and state are arguments")]
     fn at_leaf<V: SimdF32, const N: usize>(
         &mut self,
         s: V::Simd,
@@ -286,7 +281,6 @@ impl Slot {
         child: Child,
         stacks: &mut View<'_>,
         any: bool,
-        i: usize,
         stats: &mut impl Counters,
     ) -> Child {
         let leaf = child.find().err();
@@ -302,19 +296,19 @@ impl Slot {
                 {
                     // A copy, so that what only a hit needs is had where there is one.
                     let found = Found { ..found };
-                    self.top = self.hold::<V, N>(s, &triangles, &found, stacks, any, i) as u32;
+                    self.hold::<V, N>(s, &triangles, &found, stacks, any);
                 }
             }
         } else {
-            self.top = self.test::<V, _, N>(s, wide, child, stacks, any, i, stats) as u32;
+            self.test::<V, _, N>(s, wide, child, stacks, any, stats);
         }
         let top = self.top as usize;
         let child = Child(stacks.children[top]);
         self.go_on(s, wide, top, child)
     }
 
-    /// Records those of some hits that are in their triangles' own boxes; where the ray's entries of the
-    /// stacks end then. Apart from the loop, which has more room in registers for it.
+    /// Takes the best of some hits that are in their triangles' own boxes. Apart from the loop, which has more
+    /// room in registers for it.
     #[inline(never)]
     fn hold<V: SimdF32, const N: usize>(
         &mut self,
@@ -323,16 +317,15 @@ impl Slot {
         found: &Found<V>,
         stacks: &mut View<'_>,
         any: bool,
-        i: usize,
-    ) -> usize {
+    ) {
         s.vectorize(
             #[inline(always)]
             || {
                 let (packet, frame) = self.ray.packet(Scalar::new(), self.hit.t);
                 tri::hold_one_by_one(triangles, &packet, &frame, found, &mut self.hit);
-                self.drop_behind::<V>(s, stacks, any, i)
+                self.drop_behind::<V>(s, stacks, any);
             },
-        )
+        );
     }
 
     /// The same for all that is in the leaf, whatever it is, tested from the beginning.
@@ -345,56 +338,27 @@ impl Slot {
         child: Child,
         stacks: &mut View<'_>,
         any: bool,
-        i: usize,
         stats: &mut C,
-    ) -> usize {
+    ) {
         s.vectorize(
             #[inline(always)]
             || {
                 let leaf = child.find().err().unwrap_or_default();
-                self.ask::<V>(
-                    s,
-                    stacks,
-                    any,
-                    i,
-                    #[inline(always)]
-                    |packet, frame, query| {
-                        wide::leaf(s, wide, &leaf, packet, frame, query, stats);
-                    },
-                )
+                let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
+                let ask = if any { Ask::Any } else { Ask::Closest };
+                let mut query = Single::from_hit(s, self.hit, ask);
+                wide::leaf(s, wide, &leaf, &packet, &frame, &mut query, stats);
+                self.hit = query.hit();
+                self.drop_behind::<V>(s, stacks, any);
             },
-        )
+        );
     }
 
-    /// Has the ray tested, and drops what is behind its hit.
+    /// Drops what is behind the ray's hit, or all if any hit is enough.
     #[inline(always)]
-    fn ask<V: SimdF32>(
-        &mut self,
-        s: V::Simd,
-        stacks: &mut View<'_>,
-        any: bool,
-        i: usize,
-        test: impl FnOnce(&Packet<V>, &Coherent<V>, &mut Single<'_, V>),
-    ) -> usize {
-        let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
-        let ask = if any { Ask::Any } else { Ask::Closest };
-        let mut query = Single::from_hit(s, self.hit, ask);
-        test(&packet, &frame, &mut query);
-        self.hit = query.hit();
-        self.drop_behind::<V>(s, stacks, any, i)
-    }
-
-    /// Drops what is behind the ray's hit, or all if any hit is enough; the uppermost entry then.
-    #[inline(always)]
-    fn drop_behind<V: SimdF32>(
-        &self,
-        s: V::Simd,
-        stacks: &mut View<'_>,
-        any: bool,
-        i: usize,
-    ) -> usize {
+    fn drop_behind<V: SimdF32>(&mut self, s: V::Simd, stacks: &mut View<'_>, any: bool) {
         let done = any && self.hit.prim != Hits::NONE;
         let after = if done { f32::NEG_INFINITY } else { self.hit.t };
-        stacks.drop_after::<V>(s, i, self.top as usize, after)
+        self.top = stacks.drop_after::<V>(s, self.bottom, self.top, after);
     }
 }
