@@ -2,29 +2,34 @@
 //!
 //! **Decides** what is certain. With a, b, c the corners as the test has them, seen from the origin
 //! with the dominant axis as z, and (x, y) a ray's slopes, the test's edge function of a is the volume
-//! `(c × b) · (x, y, 1)`, up to rounding. `c × b` is the same for all rays from that origin: three
-//! fused operations less than six subtractions and products are left for each edge and ray. A ray is
-//! left out only if one edge function is surely negative and another surely positive: that is how the
-//! test rejects. All others are for the test to decide, so the answer is its own.
+//! `(c × b) · (x, y, 1)`, up to rounding. That is so, too, when corners are sheared and slopes moved so that
+//! the ray in the middle of a beam runs along z: then x and y are small, and so is what rounding does to the
+//! volume. `c × b` is the same for all rays of the beam: three fused operations less than six subtractions
+//! and products are left for each edge and ray. A ray is left out only if one edge function is surely negative
+//! and another surely positive: that is how the test rejects. All others are for the test to decide, so the
+//! answer is its own.
 //!
-//! Volumes are linear in the slopes. So from the least and the greatest slopes of a beam it is known
-//! how far a volume may be from that in their middle, and which triangles are out of reach for all rays:
-//! they are sorted out first, all lanes at once.
+//! Volumes are linear in the slopes. So from how far slopes are from the middle it is known how far a volume
+//! may be from that in the middle, and which triangles are out of reach for all rays: they are sorted out
+//! first, all lanes at once.
 //!
-//! **Precision.** With u = 2^-24 and M the greatest coordinate of the three corners, and slopes of at
-//! most 1: a sheared coordinate is off by at most 3u M of a value of at most 2M, hence the test's edge
-//! function by 24u M² (before its own rounding, which does not change a sign). The cross product is
-//! off by 4u M² on each axis, hence its product with (x, y, 1) by 12u M², and by 14u M² more for the
-//! roundings of that. What is beyond 64u M² has the right sign. The extremes of a beam are off by as
-//! much as the volume of a ray and 12u M² for what they are apart: where they are beyond twice that
-//! bound, the volume of every ray is beyond it. Coordinates of up to 2^40 are within
-//! the range, and where M² vanishes so do all differences: the bound is no less than 2^-100.
+//! **Precision.** With u = 2^-24, M the greatest coordinate of the three corners, D how far slopes are from the
+//! middle, of which both are at most 1, S the greatest sheared x or y, which is at most 2M, and T = S + DM: no
+//! corner, sheared for any of the rays, is further than T from the origin in x or y. The test has its sheared
+//! coordinates up to 3uM, hence its edge function up to 12u MT + 18u² M² (before its own rounding, which does
+//! not change a sign). Here they are off by 3uM too, and by 2uM for the slope: 20u MT + 50u² M². The cross
+//! product is off by 6u S² ≤ 18u MT on z and by 6u SM on the others, which D makes no more than 6u MT each;
+//! and 30u MT are for the roundings of the sum, whose terms are together no more than 10MT. What is beyond
+//! 128u MT has the right sign, if T is made 2^-20 M greater for what has u². The extremes of a beam are off by
+//! as much as the volume of a ray and 12u MT for what they are apart: where they are beyond twice that bound,
+//! the volume of every ray is beyond it. Coordinates of up to 2^40 are within the range, and where the bound
+//! vanishes so do all differences: it is no less than 2^-100.
 //!
 //! **Degenerate inputs.** A triangle without area is never certain. A lane without a triangle has
 //! NaNs and is always left out.
 //!
-//! **Operations**, for each ray: 6 fused multiply-adds, 2 minima, 2 maxima, 2 comparisons; for a beam
-//! 9, 3 multiplications, 6 additions and as many minima, maxima and comparisons.
+//! **Operations**, for each ray: 2 subtractions, 6 fused multiply-adds, 2 minima, 2 maxima, 2 comparisons; for
+//! a beam 9, 3 multiplications, 6 additions and as many minima, maxima and comparisons.
 //!
 //! Source: the volumes are those of Amanatides and Choi, "Ray Tracing Triangular Meshes", 1995; the
 //! bound is worked out here.
@@ -33,10 +38,13 @@ use simd4::math::Vec3;
 use simd4::{SimdF32, SimdMask};
 
 use super::Records;
-use crate::packet::{Beam, Bounds};
+use crate::packet::Beam;
 
-/// A bound of both tests' errors, times the square of the greatest coordinate.
-const BOUND: f32 = 1.0 / (1 << 18) as f32;
+/// A bound of both tests' errors, times MT.
+const BOUND: f32 = 1.0 / (1 << 17) as f32;
+
+/// By how much of M T is made greater.
+const MORE: f32 = 1.0 / (1 << 20) as f32;
 
 /// The least bound.
 const LEAST_BOUND: f32 = 1.0 / (1u128 << 100) as f32;
@@ -46,6 +54,8 @@ pub(crate) struct EdgeVolumes<B: SimdF32> {
     /// The cross products of b and c, c and a, a and b.
     normals: [[B::Array; 3]; 3],
     bound: B::Array,
+    /// The slopes in the middle of the beam.
+    middle: [f32; 2],
     /// The triangles that some ray of the beam may hit: a bit for each lane.
     pub(crate) lanes: u32,
 }
@@ -60,21 +70,28 @@ impl<B: SimdF32> EdgeVolumes<B> {
         &Beam { axes, slopes, .. }: &Beam,
         origin: [f32; 3],
     ) -> Self {
+        let middle = slopes.map(|[a, b]| (a + b) * 0.5);
+        // The middle is rounded, and so is what is subtracted.
+        let apart = slopes.map(|[a, b]| (b - a) * (0.5 + MORE) + MORE);
         let a = relative(s, records, 0, axes, origin);
         let b = relative(s, records, 1, axes, origin);
         let c = relative(s, records, 2, axes, origin);
         let greatest = greatest(a).max(greatest(b)).max(greatest(c));
-        let bound = (greatest * greatest * B::splat(s, BOUND)).max(B::splat(s, LEAST_BOUND));
+        let [a, b, c] = [sheared(s, a, middle), sheared(s, b, middle), sheared(s, c, middle)];
+        let across = across(a).max(across(b)).max(across(c));
+        let reach = greatest.mul_add_fast(B::splat(s, apart[0].max(apart[1]) + MORE), across);
+        let bound = (greatest * reach * B::splat(s, BOUND)).max(B::splat(s, LEAST_BOUND));
         let [na, nb, nc] = [cross(c, b), cross(a, c), cross(b, a)];
-        let (least_a, greatest_a) = extremes(s, na, slopes);
-        let (least_b, greatest_b) = extremes(s, nb, slopes);
-        let (least_c, greatest_c) = extremes(s, nc, slopes);
+        let (least_a, greatest_a) = extremes(s, na, apart);
+        let (least_b, greatest_b) = extremes(s, nb, apart);
+        let (least_c, greatest_c) = extremes(s, nc, apart);
         let least = greatest_a.min(greatest_b).min(greatest_c);
         let greatest = least_a.max(least_b).max(least_c);
         let margin = bound + bound;
         EdgeVolumes {
             normals: [arrays(na), arrays(nb), arrays(nc)],
             bound: bound.to_array(),
+            middle,
             lanes: (least.ge(-margin) | greatest.le(margin)).bitmask(),
         }
     }
@@ -91,6 +108,7 @@ impl<B: SimdF32> EdgeVolumes<B> {
                 splat::<B, V>(s, c, lane),
             ],
             bound: V::splat(s, self.bound.as_ref()[lane]),
+            middle: self.middle.map(|slope| V::splat(s, slope)),
         }
     }
 }
@@ -99,13 +117,15 @@ impl<B: SimdF32> EdgeVolumes<B> {
 pub(crate) struct Spread<V> {
     normals: [Vec3<V>; 3],
     bound: V,
+    middle: [V; 2],
 }
 
 impl<V: SimdF32> Spread<V> {
     /// The rays, by their slopes, that may hit the triangle.
     #[inline(always)]
     pub(crate) fn may_hit(&self, x: V, y: V) -> V::Mask {
-        let [a, b, c] = self.normals;
+        let ([a, b, c], [middle_x, middle_y]) = (self.normals, self.middle);
+        let (x, y) = (x - middle_x, y - middle_y);
         let (a, b, c) = (volume(a, x, y), volume(b, x, y), volume(c, x, y));
         a.min(b).min(c).ge(-self.bound) | a.max(b).max(c).le(self.bound)
     }
@@ -116,14 +136,22 @@ fn volume<V: SimdF32>(n: Vec3<V>, x: V, y: V) -> V {
     x.mul_add_fast(n.x, y.mul_add_fast(n.y, n.z))
 }
 
-/// The least and the greatest volume of rays with such slopes.
+/// The least and the greatest volume of rays with slopes so far from the middle.
 #[inline(always)]
-fn extremes<B: SimdF32>(s: B::Simd, n: Vec3<B>, [x, y]: [Bounds; 2]) -> (B, B) {
-    let (dx, dy) = (B::splat(s, (x[1] - x[0]) * 0.5), B::splat(s, (y[1] - y[0]) * 0.5));
-    let (x, y) = (B::splat(s, (x[0] + x[1]) * 0.5), B::splat(s, (y[0] + y[1]) * 0.5));
-    let middle = volume(n, x, y);
-    let apart = dx.mul_add_fast(n.x.abs(), dy * n.y.abs());
-    (middle - apart, middle + apart)
+fn extremes<B: SimdF32>(s: B::Simd, n: Vec3<B>, [x, y]: [f32; 2]) -> (B, B) {
+    let apart = B::splat(s, x).mul_add_fast(n.x.abs(), B::splat(s, y) * n.y.abs());
+    (n.z - apart, n.z + apart)
+}
+
+/// What a point is when a ray with such slopes runs along z.
+#[inline(always)]
+fn sheared<B: SimdF32>(s: B::Simd, v: Vec3<B>, [x, y]: [f32; 2]) -> Vec3<B> {
+    Vec3::new(v.x - v.z * B::splat(s, x), v.y - v.z * B::splat(s, y), v.z)
+}
+
+#[inline(always)]
+fn across<B: SimdF32>(v: Vec3<B>) -> B {
+    v.x.abs().max(v.y.abs())
 }
 
 #[inline(always)]
