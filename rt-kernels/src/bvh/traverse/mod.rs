@@ -5,6 +5,7 @@ pub mod heap;
 pub(crate) mod large;
 pub mod skip;
 pub(crate) mod turns;
+mod way;
 pub mod wide;
 
 pub use compared::{Compared, catalogue};
