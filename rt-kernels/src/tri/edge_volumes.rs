@@ -199,8 +199,10 @@ mod tests {
     use simd4::{Lanes, Level, Simd, dispatch};
 
     use super::*;
+    use crate::Ray;
     use crate::geom::Triangle;
-    use crate::tri::{BlockLanes, Record, RecordBlock};
+    use crate::packet::{Coherent, Packet};
+    use crate::tri::{BlockLanes, Record, RecordBlock, TriangleKernel, WithoutBox};
 
     /// Eight triangles of all sizes, about where the beam goes.
     fn block(seed: usize) -> RecordBlock<8> {
@@ -237,6 +239,75 @@ mod tests {
         [of_beam.count_ones(), (of_rays & 127).count_ones()]
     }
 
+    /// Of rays from the origin at edges and corners of a block's triangles: how many hit one, of which none is
+    /// left out, and how many miss one that is.
+    #[inline(always)]
+    fn grazed<S: Simd>(s: S, block: &RecordBlock<8>, slopes: &[[f32; 2]]) -> [u32; 2] {
+        let bounds = |k: usize| {
+            let along = slopes.iter().map(|slopes| slopes[k]);
+            [along.clone().fold(1.0, f32::min), along.fold(-1.0, f32::max)]
+        };
+        let triangles = BlockLanes::new(block, 0);
+        let volumes =
+            EdgeVolumes::<S::f32x8>::new(s, &triangles, &beam([bounds(0), bounds(1)]), [0.0; 3]);
+        let mut counts = [0; 2];
+        for &[x, y] in slopes {
+            let ray = Ray::new(glam::Vec3::ZERO, glam::Vec3::new(x, y, 1.0));
+            let packet = Packet::<S::f32x8>::splat(s, &ray);
+            let frame = Coherent::of_one(s, &ray);
+            let found = WithoutBox::test(s, &triangles, &packet, &frame, packet.tmax);
+            let found = found.map_or(0, |found| found.mask.bitmask());
+            for lane in 0..7 {
+                let triangle = volumes.spread::<S::f32x4>(s, lane);
+                let may_hit = volumes.lanes >> lane & 1 == 1
+                    && triangle.may_hit(S::f32x4::splat(s, x), S::f32x4::splat(s, y)).any();
+                let hits = found >> lane & 1 == 1;
+                assert!(may_hit || !hits, "lane {lane}: ({x}, {y}) hits");
+                counts[0] += u32::from(hits);
+                counts[1] += u32::from(!may_hit);
+            }
+        }
+        counts
+    }
+
+    #[test]
+    fn rays_at_the_edges_of_small_triangles_are_not_left_out() {
+        let [mut hits, mut left_out] = [0; 2];
+        for seed in 0..300 {
+            let wave = |k: usize| {
+                (glam::Vec3::new(0.61, 1.37, 2.71) * (seed * 89 + k) as f32).map(f32::sin)
+            };
+            let size = [1e-1, 1e-2, 1e-3, 1e-5][seed % 4];
+            let middle = wave(1) * 0.9 + glam::Vec3::Z * 3.0;
+            let triangles: Vec<[glam::Vec3; 3]> = (0..7)
+                .map(|i| [2, 3, 4].map(|k| middle + (wave(9 * i + k) + wave(i) * 0.5) * size))
+                .collect();
+            let record = |(i, &corners): (usize, &[glam::Vec3; 3])| {
+                Record::corners(&Triangle { corners }, i as u32)
+            };
+            let records: Vec<_> = triangles.iter().enumerate().map(record).collect();
+            let mut slopes = Vec::new();
+            for [a, b, c] in triangles {
+                for at in [a, b, c, (a + b) * 0.5, b.lerp(c, 0.3), c.lerp(a, 0.9)] {
+                    let [x, y] = [at.x / at.z, at.y / at.z];
+                    slopes.extend([[x, y], [x.next_up(), y], [x, y.next_down()]]);
+                }
+            }
+            for level in Level::available() {
+                let block = RecordBlock::new(&records);
+                let counts = dispatch!(level, s => grazed(s, &block, &slopes));
+                hits += counts[0];
+                left_out += counts[1];
+            }
+        }
+        assert!(hits > 10_000 && left_out > 10_000, "{hits} and {left_out}");
+    }
+
+    fn beam(slopes: [[f32; 2]; 2]) -> Beam {
+        let all = [0.0, 0.0];
+        Beam { axes: [0, 1, 2], negative: [false; 3], origin: [all; 3], inv: [all; 3], slopes }
+    }
+
     #[test]
     fn a_beam_leaves_out_what_all_its_rays_miss() {
         let [mut by_beams, mut by_rays] = [0; 2];
@@ -244,14 +315,7 @@ mod tests {
             let width = [0.0, 0.01, 0.1, 1.0][seed % 4];
             let [x, y] = [0.37, 0.73].map(|k| (seed as f32 * k).sin() * (1.0 - width));
             let slopes = [[x, x + width], [y, y + width]];
-            let all = [0.0, 0.0];
-            let beam = Beam {
-                axes: [0, 1, 2],
-                negative: [false; 3],
-                origin: [all; 3],
-                inv: [all; 3],
-                slopes,
-            };
+            let beam = beam(slopes);
             for level in Level::available() {
                 let [of_beam, of_rays] = dispatch!(level, s => missed(s, &block(seed), &beam));
                 by_beams += of_beam;

@@ -126,7 +126,7 @@ impl Turns {
         any: bool,
         stats: &mut impl Counters,
     ) -> u32 {
-        // Two registers at a time are as many again as there are for it.
+        // Where a register has four lanes, half a node is all that there are registers for.
         match <B::Simd as Simd>::LANES {
             4 => self.steps::<<B::Simd as Simd>::f32x4, N>(s, wide, any, stats),
             _ => self.steps::<B, N>(s, wide, any, stats),
