@@ -112,31 +112,52 @@ pub fn intersect<K: TriangleKernel, V: SimdF32, F: Frame<V>, R: Records<V>, Q: Q
 /// The kernel that renders, before what it finds is held in the triangles' own boxes.
 pub(crate) type WithoutBox = Watertight<Division, Plain, true, false>;
 
-/// Of one ray's hits in lanes, which [`WithoutBox`] has found, keeps the best in `best` if it is better than
-/// what is there. Each is held in its triangle's own box by itself: mostly there is but one.
-#[inline(always)]
-pub(crate) fn hold_one_by_one<V: SimdF32, const N: usize>(
-    triangles: &BlockLanes<'_, N>,
-    packet: &Packet<f32x1>,
-    frame: &Coherent<f32x1>,
-    found: &Found<V>,
-    best: &mut Hit,
-) {
-    let s = Scalar::new();
-    let (t, u, v) = (found.t.to_array(), found.u.to_array(), found.v.to_array());
-    let mut left = found.mask.bitmask();
-    while left != 0 {
-        let lane = left.trailing_zeros() as usize & (V::LANES - 1);
-        left &= left - 1;
-        let one = triangles.one(lane);
-        let [t, u, v] = [&t, &u, &v].map(|lanes| f32x1::splat(s, lanes.as_ref()[lane]));
-        let found = Found { mask: t.eq(t), t, u, v };
-        let limit = f32x1::splat(s, best.t);
-        let held = own_box::held(s, &one.own_boxes(s), packet, frame, limit, found);
-        let prim = Records::<f32x1>::prim(&one, s).lane(0);
-        let hit = Hit { t: held.t.lane(0), prim, u: u.lane(0), v: v.lane(0) };
-        if held.mask.any() && hit.wins(best) {
-            *best = hit;
+/// What [`WithoutBox`] has found for one ray in a block.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Candidates {
+    /// A bit for each triangle.
+    pub(crate) lanes: u32,
+    t: [f32; 8],
+    u: [f32; 8],
+    v: [f32; 8],
+}
+
+impl Candidates {
+    /// Adds what was found among the triangles from `first` on.
+    #[inline(always)]
+    pub(crate) fn put<V: SimdF32>(&mut self, first: usize, found: &Found<V>) {
+        let first = first & (8 - V::LANES);
+        self.lanes |= found.mask.bitmask() << first;
+        found.t.store(&mut self.t[first..]);
+        found.u.store(&mut self.u[first..]);
+        found.v.store(&mut self.v[first..]);
+    }
+
+    /// Keeps the best of them in `best`, if it is better than what is there. Each is held in its triangle's own
+    /// box by itself: mostly there is but one.
+    #[inline(always)]
+    pub(crate) fn hold<const N: usize>(
+        &self,
+        block: &RecordBlock<N>,
+        packet: &Packet<f32x1>,
+        frame: &Coherent<f32x1>,
+        best: &mut Hit,
+    ) {
+        let s = Scalar::new();
+        let mut left = self.lanes;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % 8;
+            left &= left - 1;
+            let one = BlockLanes::new(block, lane);
+            let [t, u, v] = [&self.t, &self.u, &self.v].map(|lanes| f32x1::splat(s, lanes[lane]));
+            let found = Found { mask: t.eq(t), t, u, v };
+            let limit = f32x1::splat(s, best.t);
+            let held = own_box::held(s, &one.own_boxes(s), packet, frame, limit, found);
+            let prim = Records::<f32x1>::prim(&one, s).lane(0);
+            let hit = Hit { t: held.t.lane(0), prim, u: u.lane(0), v: v.lane(0) };
+            if held.mask.any() && hit.wins(best) {
+                *best = hit;
+            }
         }
     }
 }

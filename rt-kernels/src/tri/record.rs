@@ -271,12 +271,6 @@ impl<'a, const N: usize> BlockLanes<'a, N> {
         BlockLanes { block, first }
     }
 
-    /// One of them.
-    #[inline(always)]
-    pub(super) fn one(self, lane: usize) -> Self {
-        BlockLanes { block: self.block, first: self.first + lane }
-    }
-
     /// The same, to be tested to the end.
     #[inline(always)]
     pub(crate) fn without_early_out(self) -> BlockLanes<'a, N, false> {

@@ -33,7 +33,7 @@ use crate::quadric::{cone, sphere};
 use crate::slab::pyramid::Culling;
 use crate::tri::edge_volumes::EdgeVolumes;
 use crate::tri::{
-    self, BlockLanes, Found, OwnBoxLanes, RecordBlock, TriangleKernel, Watertight, WithoutBox,
+    self, BlockLanes, Candidates, OwnBoxLanes, RecordBlock, TriangleKernel, Watertight, WithoutBox,
 };
 
 /// Rays, and where to put what they hit.
@@ -383,18 +383,20 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
             rays &= rays - 1;
             self.stats.count(|stats| stats.triangle_tests += N as u64);
             let (packet, frame) = self.packet.ray::<V>(s, ray);
+            let mut candidates = Candidates::default();
             for part in 0..N / V::LANES {
                 let triangles = BlockLanes::new(block, part * V::LANES);
-                let limit = V::splat(s, self.packet.hit(ray).t);
-                if let Some(found) = WithoutBox::test(s, &triangles, &packet, &frame, limit)
+                if let Some(found) = WithoutBox::test(s, &triangles, &packet, &frame, packet.tmax)
                     && found.mask.any()
                 {
-                    let found = Found { ..found };
-                    let (packet, frame) = self.packet.ray(Scalar::new(), ray);
-                    let mut hit = self.packet.hit(ray);
-                    tri::hold_one_by_one(&triangles, &packet, &frame, &found, &mut hit);
-                    self.packet.set_hit(ray, hit);
+                    candidates.put(part * V::LANES, &found);
                 }
+            }
+            if candidates.lanes != 0 {
+                let (packet, frame) = self.packet.ray(Scalar::new(), ray);
+                let mut hit = self.packet.hit(ray);
+                candidates.hold(block, &packet, &frame, &mut hit);
+                self.packet.set_hit(ray, hit);
             }
         }
     }

@@ -27,7 +27,7 @@ use super::wide;
 use crate::bvh::layout::{Child, Wide, without_gaps};
 use crate::packet::{Alone, Ask, Hits, Single};
 use crate::slab::{Crossing, robust};
-use crate::tri::{self, BlockLanes, Found, TriangleKernel, WithoutBox};
+use crate::tri::{BlockLanes, Candidates, TriangleKernel, WithoutBox};
 use crate::{Counters, Hit};
 
 /// How many rays take turns: a bit for each in a `u32`.
@@ -38,6 +38,8 @@ pub(crate) struct Turns {
     slots: Box<[Slot; RAYS]>,
     /// Where each goes next.
     next: [u32; RAYS],
+    /// What was found in the leaf where each is.
+    candidates: Box<[Candidates; RAYS]>,
     stacks: Stacks,
     /// The rays whose next child is a node, and those where it is a leaf.
     at_nodes: u32,
@@ -87,7 +89,8 @@ impl Turns {
         let (children, enters) = (vec![Child::NONE.0; RAYS * room], vec![0.0; RAYS * room]);
         let stacks = Stacks { children, enters, room };
         let next = [Child::NONE.0; RAYS];
-        Turns { slots: Box::new([slot; RAYS]), next, stacks, at_nodes: 0, at_leaves: 0 }
+        let candidates = Box::new([Candidates::default(); RAYS]);
+        Turns { slots: Box::new([slot; RAYS]), next, candidates, stacks, at_nodes: 0, at_leaves: 0 }
     }
 
     /// Whether no other ray can be put among them.
@@ -141,8 +144,9 @@ impl Turns {
         any: bool,
         stats: &mut impl Counters,
     ) -> u32 {
-        let Turns { slots, next, stacks, at_nodes, at_leaves } = self;
-        let (slots, mut stacks) = (&mut **slots, stacks.view());
+        let Turns { slots, next, candidates, stacks, at_nodes, at_leaves } = self;
+        let (slots, candidates) = (&mut **slots, &mut **candidates);
+        let mut stacks = stacks.view();
         let mut left = *at_nodes;
         while left != 0 {
             let i = left.trailing_zeros() as usize;
@@ -159,12 +163,23 @@ impl Turns {
         *at_leaves |= *at_nodes & leaves & !done;
         *at_nodes &= !leaves;
         if *at_nodes == 0 || at_leaves.count_ones() as usize >= RAYS / 2 {
-            let mut left = *at_leaves;
+            // Hits are for later, all at once: a guess that was wrong costs what other rays have begun.
+            let (mut left, mut hit) = (*at_leaves, 0);
+            let mut leaf = [Child::NONE; RAYS];
             while left != 0 {
                 let i = left.trailing_zeros() as usize;
                 left &= left - 1;
-                let child = Child(next[i]);
-                next[i] = slots[i].at_leaf::<V, N>(s, wide, child, &mut stacks, any, stats).0;
+                leaf[i] = Child(next[i]);
+                hit |= slots[i].at_leaf::<V, N>(s, wide, leaf[i], &mut candidates[i], stats) << i;
+                next[i] = slots[i].go_on(s, wide, &stacks).0;
+            }
+            while hit != 0 {
+                let i = hit.trailing_zeros() as usize;
+                hit &= hit - 1;
+                // What it would have gone on with may be behind the hit.
+                slots[i].top = slots[i].top.wrapping_add(1);
+                slots[i].hold::<V, _, N>(s, wide, leaf[i], &candidates[i], &mut stacks, any, stats);
+                next[i] = slots[i].go_on(s, wide, &stacks).0;
             }
             let [leaves, none] = find::<V>(s, next);
             done |= *at_leaves & none;
@@ -255,87 +270,56 @@ impl Slot {
             pushed += count;
         }
         // If it is none of these, then what is below.
-        self.go_on(s, wide, top + pushed, Child(children[pushed % MANY]))
-    }
-
-    /// Goes on with a child, which is the uppermost entry in the stacks.
-    #[inline(always)]
-    fn go_on<S: Simd, const N: usize>(
-        &mut self,
-        s: S,
-        wide: &Wide<N>,
-        top: usize,
-        child: Child,
-    ) -> Child {
-        self.top = (top as u32).wrapping_sub(1);
+        let child = Child(children[pushed % MANY]);
+        self.top = ((top + pushed) as u32).wrapping_sub(1);
         wide.prefetch_child(s, child);
         child
     }
 
-    /// One step, to a leaf: where to go next.
+    /// Goes on with the uppermost entry of its stack.
+    #[inline(always)]
+    fn go_on<S: Simd, const N: usize>(&mut self, s: S, wide: &Wide<N>, stacks: &View<'_>) -> Child {
+        let child =
+            stacks.children.get(self.top as usize).map_or(Child::NONE, |&child| Child(child));
+        self.top = self.top.wrapping_sub(1);
+        wide.prefetch_child(s, child);
+        child
+    }
+
+    /// One step, to a leaf: 1 if something may be hit there.
     #[inline(always)]
     fn at_leaf<V: SimdF32, const N: usize>(
-        &mut self,
+        &self,
         s: V::Simd,
         wide: &Wide<N>,
         child: Child,
-        stacks: &mut View<'_>,
-        any: bool,
+        candidates: &mut Candidates,
         stats: &mut impl Counters,
-    ) -> Child {
+    ) -> u32 {
         let leaf = child.find().err();
         let blocks = leaf.as_ref().map_or(&[][..], |slots| wide.blocks(slots));
-        if let [block] = blocks {
-            stats.count(|stats| stats.triangle_tests += N as u64);
-            let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
-            for part in 0..N / V::LANES {
-                let triangles = BlockLanes::new(block, part * V::LANES);
-                let all = triangles.without_early_out();
-                if let Some(found) = WithoutBox::test(s, &all, &packet, &frame, packet.tmax)
-                    && found.mask.any()
-                {
-                    // A copy, so that what only a hit needs is had where there is one.
-                    let found = Found { ..found };
-                    self.hold::<V, N>(s, &triangles, &found, stacks, any);
-                }
+        let [block] = blocks else { return 1 };
+        stats.count(|stats| stats.triangle_tests += N as u64);
+        let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
+        candidates.lanes = 0;
+        for first in (0..N).step_by(V::LANES) {
+            let triangles = BlockLanes::new(block, first).without_early_out();
+            if let Some(found) = WithoutBox::test(s, &triangles, &packet, &frame, packet.tmax) {
+                candidates.put(first, &found);
             }
-        } else {
-            self.test::<V, _, N>(s, wide, child, stacks, any, stats);
         }
-        let top = self.top as usize;
-        let child = Child(stacks.children[top]);
-        self.go_on(s, wide, top, child)
+        u32::from(candidates.lanes != 0)
     }
 
-    /// Takes the best of some hits that are in their triangles' own boxes. Apart from the loop, which has more
-    /// room in registers for it.
+    /// Takes the best hit of the leaf. Apart from the loop, which has more room in registers for it.
+    #[expect(clippy::too_many_arguments, reason = "strategies and state are arguments")]
     #[inline(never)]
-    fn hold<V: SimdF32, const N: usize>(
-        &mut self,
-        s: V::Simd,
-        triangles: &BlockLanes<'_, N>,
-        found: &Found<V>,
-        stacks: &mut View<'_>,
-        any: bool,
-    ) {
-        s.vectorize(
-            #[inline(always)]
-            || {
-                let (packet, frame) = self.ray.packet(Scalar::new(), self.hit.t);
-                tri::hold_one_by_one(triangles, &packet, &frame, found, &mut self.hit);
-                self.drop_behind::<V>(s, stacks, any);
-            },
-        );
-    }
-
-    /// The same for all that is in the leaf, whatever it is, tested from the beginning.
-    #[cold]
-    #[inline(never)]
-    fn test<V: SimdF32, C: Counters, const N: usize>(
+    fn hold<V: SimdF32, C: Counters, const N: usize>(
         &mut self,
         s: V::Simd,
         wide: &Wide<N>,
         child: Child,
+        candidates: &Candidates,
         stacks: &mut View<'_>,
         any: bool,
         stats: &mut C,
@@ -344,11 +328,17 @@ impl Slot {
             #[inline(always)]
             || {
                 let leaf = child.find().err().unwrap_or_default();
-                let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
-                let ask = if any { Ask::Any } else { Ask::Closest };
-                let mut query = Single::from_hit(s, self.hit, ask);
-                wide::leaf(s, wide, &leaf, &packet, &frame, &mut query, stats);
-                self.hit = query.hit();
+                if let [block] = wide.blocks(&leaf) {
+                    let (packet, frame) = self.ray.packet(Scalar::new(), self.hit.t);
+                    candidates.hold(block, &packet, &frame, &mut self.hit);
+                } else {
+                    // Several blocks, or what is no triangle.
+                    let (packet, frame) = self.ray.packet::<V>(s, self.hit.t);
+                    let ask = if any { Ask::Any } else { Ask::Closest };
+                    let mut query = Single::from_hit(s, self.hit, ask);
+                    wide::leaf(s, wide, &leaf, &packet, &frame, &mut query, stats);
+                    self.hit = query.hit();
+                }
                 self.drop_behind::<V>(s, stacks, any);
             },
         );
