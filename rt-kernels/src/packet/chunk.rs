@@ -21,7 +21,7 @@ pub struct Chunk {
     pub(super) inv: [Column<f32>; 3],
     pub(super) tmin: Column<f32>,
     /// With the dominant axis of the class that is traced as z, or with each ray's own, if they are to go
-    /// [by themselves](Chunk::part).
+    /// [by themselves](Chunk::take_alone).
     pub(super) shear: [Column<f32>; 3],
     /// The magnitudes of the reciprocals, with the dominant axis of the class that is traced as z.
     pub(super) inv_abs: [Column<f32>; 3],
@@ -105,13 +105,18 @@ impl Chunk {
 
     /// Takes the rays that are in no class yet, of which each is to go [by itself](Chunk::alone).
     #[inline(always)]
-    pub(crate) fn part<V: SimdF32>(&mut self, s: V::Simd) -> u64 {
+    pub(crate) fn take_alone<V: SimdF32>(&mut self, s: V::Simd) -> u64 {
         for g in 0..self.groups::<V>() {
             let at = g * V::LANES;
             let (origin, dir) = (get3(s, &self.origin, at), get3(s, &self.dir, at));
             let inv = get3(s, &self.inv, at);
-            let packet: Packet<V> =
-                Packet { origin, dir, inv, tmin: get(s, &self.tmin, at), tmax: dir.x };
+            let packet: Packet<V> = Packet {
+                origin,
+                dir,
+                inv,
+                tmin: get(s, &self.tmin, at),
+                tmax: get(s, &self.hits.t, at),
+            };
             let [x, y, z] = packet.negative(s);
             let (shear, OwnAxes([in_x, in_y])) = packet.own_shear();
             let bit =

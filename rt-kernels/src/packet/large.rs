@@ -73,10 +73,9 @@ impl<'a> LargePacket<'a> {
             let mut values = [x, y, z, inv.x, inv.y, inv.z, shear.x, shear.y];
             if some != all {
                 // What is not in the class is as its first ray is, of which all is known by now.
-                let ([x, y, z], inv, shear) = (&chunk.origin, &chunk.inv_abs, &chunk.shear);
-                let [origin_x, origin_y, origin_z] = [[x, y, z][kx], [x, y, z][ky], [x, y, z][kz]];
-                let columns =
-                    [origin_x, origin_y, origin_z, &inv[0], &inv[1], &inv[2], &shear[0], &shear[1]];
+                let [x, y, z] = axes.map(|axis| &chunk.origin[axis]);
+                let (inv, shear) = (&chunk.inv_abs, &chunk.shear);
+                let columns = [x, y, z, &inv[0], &inv[1], &inv[2], &shear[0], &shear[1]];
                 let lanes = lanes::<V>(s, some);
                 for (value, column) in values.iter_mut().zip(columns) {
                     *value = lanes.select(*value, V::splat(s, column[lead]));

@@ -29,7 +29,8 @@
 //! NaNs and is always left out.
 //!
 //! **Operations**, for each ray: 2 subtractions, 6 fused multiply-adds, 2 minima, 2 maxima, 2 comparisons; for
-//! a beam 9, 3 multiplications, 6 additions and as many minima, maxima and comparisons.
+//! a beam 6 products and subtractions to shear, 4 fused multiply-adds, 3 multiplications, 6 additions, and as
+//! many minima, maxima and comparisons as for a ray.
 //!
 //! Source: the volumes are those of Amanatides and Choi, "Ray Tracing Triangular Meshes", 1995; the
 //! bound is worked out here.

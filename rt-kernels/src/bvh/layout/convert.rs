@@ -281,27 +281,25 @@ fn open<const N: usize>(inner: Inner<N>, depth: usize) -> Vec<Subtree<N>> {
     if depth <= FIRST_DEPTHS { inner.open_largest() } else { inner.open() }
 }
 
-/// The children in the order of their lanes, so that each half of a node has neighbours: apart from the
-/// other where the boxes' centres are furthest apart.
+/// The children in the order of their lanes, so that each half of a node has neighbours.
 fn in_halves<const N: usize>(mut children: Vec<Subtree<N>>) -> Vec<Subtree<N>> {
     if children.len() > 4 {
-        let center = |child: &Subtree<N>| child.aabb().min() + child.aabb().max();
-        let centers =
-            children.iter().fold(Aabb::EMPTY, |all, child| all.union(&Aabb::point(center(child))));
-        let axis = centers.extent().max_position();
-        children.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
+        sort_apart(&mut children, Subtree::aabb);
     }
     children
 }
 
+/// Sorts along the axis on which the boxes' centres are furthest apart.
+fn sort_apart<T>(parts: &mut [T], aabb: impl Fn(&T) -> &Aabb) {
+    let center = |part: &T| aabb(part).min() + aabb(part).max();
+    let centers = parts.iter().fold(Aabb::EMPTY, |all, part| all.union(&Aabb::point(center(part))));
+    let axis = centers.extent().max_position();
+    parts.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
+}
+
 /// Two nodes with one half each of some nodes, parted where their boxes' centres are furthest apart.
 fn halves(mut nodes: Vec<build::Node>) -> [build::Node; 2] {
-    let center = |node: &build::Node, axis: usize| node.aabb.min()[axis] + node.aabb.max()[axis];
-    let centers = nodes
-        .iter()
-        .fold(Aabb::EMPTY, |all, node| all.union(&Aabb::point(node.aabb.min() + node.aabb.max())));
-    let axis = centers.extent().max_position();
-    nodes.sort_by(|a, b| center(a, axis).total_cmp(&center(b, axis)));
+    sort_apart(&mut nodes, |node| &node.aabb);
     let right = nodes.split_off(nodes.len() / 2);
     [nodes, right].map(|children| {
         let aabb = children.iter().fold(Aabb::EMPTY, |all, child| all.union(&child.aabb));

@@ -121,19 +121,25 @@ pub(crate) fn without_gaps<V: SimdF32>(s: V::Simd, lanes: u32) -> (V::U32, usize
     (V::U32::load(s, &COMPRESSED[lanes]), COUNTS[lanes].into())
 }
 
-/// For each mask of eight lanes, or of four, its lanes, and after them the first lane again.
+/// Those lanes of an order that are in a mask, without gaps, and after them the first lane again.
+const fn pick<const L: usize>(order: [u32; L], mask: usize) -> [u32; L] {
+    let (mut picked, mut count, mut i) = ([0; L], 0, 0);
+    while i < L {
+        if mask >> order[i] & 1 == 1 {
+            picked[count] = order[i];
+            count += 1;
+        }
+        i += 1;
+    }
+    picked
+}
+
+/// Of each mask of eight lanes, or of four, the lanes.
 static COMPRESSED: [[u32; 8]; 256] = {
     let mut table = [[0; 8]; 256];
     let mut mask = 0;
     while mask < 256 {
-        let (mut lane, mut count) = (0, 0);
-        while lane < 8 {
-            if mask >> lane & 1 == 1 {
-                table[mask][count] = lane as u32;
-                count += 1;
-            }
-            lane += 1;
-        }
+        table[mask] = pick([0, 1, 2, 3, 4, 5, 6, 7], mask);
         mask += 1;
     }
     table
@@ -204,15 +210,7 @@ static CHOSEN: [[[u32; HALF]; 1 << HALF]; ROOM] = {
     while number < 24 {
         let mut mask = 0;
         while mask < 1 << HALF {
-            let (mut i, mut count) = (0, 0);
-            while i < HALF {
-                let lane = ORDERS[number][i];
-                if mask >> lane & 1 == 1 {
-                    table[number][mask][count] = lane;
-                    count += 1;
-                }
-                i += 1;
-            }
+            table[number][mask] = pick(ORDERS[number], mask);
             mask += 1;
         }
         number += 1;

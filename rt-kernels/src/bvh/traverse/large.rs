@@ -93,7 +93,7 @@ pub(crate) fn trace<S: Simd, B: SimdF32<Simd = S>, C: Counters, const N: usize>(
         chunk.load::<S::f32s>(s, rays, first, most);
         if chunk.is_mixed() {
             chunk.store(hits, first);
-            let mut left = chunk.part::<S::f32s>(s);
+            let mut left = chunk.take_alone::<S::f32s>(s);
             done.count(|stats| stats.rays_alone += u64::from(left.count_ones()));
             while left != 0 {
                 while turns.full() {
