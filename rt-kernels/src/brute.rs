@@ -6,7 +6,7 @@ use crate::packet::{Frame, Packet, Query};
 use crate::primitives::Store;
 use crate::trace::Traverse;
 use crate::tri::{Method, TriangleKernel};
-use crate::{BuildError, Counters, Primitives};
+use crate::{BuildError, Counters, Primitives, Sequential};
 
 /// No acceleration at all.
 #[derive(Clone, Debug)]
@@ -28,7 +28,7 @@ impl Brute {
     /// # Errors
     /// As [`Bvh::build`](crate::Bvh::build).
     pub fn build_with(primitives: &Primitives, method: Method) -> Result<Brute, BuildError> {
-        primitives.check()?;
+        primitives.check(&Sequential)?;
         Ok(Brute { store: Store::in_order(primitives, method) })
     }
 }

@@ -65,6 +65,7 @@ mod brute;
 pub mod bvh;
 pub mod camera;
 pub mod catalogue;
+mod collect;
 pub mod geom;
 pub mod kd;
 pub mod mailbox;

@@ -10,7 +10,7 @@ use crate::packet::{Frame, Packet, Query};
 use crate::quadric::cone::{self, ConeRecord};
 use crate::quadric::sphere;
 use crate::tri::{self, Method, Record, TriangleKernel};
-use crate::{BuildError, Counters};
+use crate::{BuildError, Counters, Join};
 
 /// The primitives of a scene. They are numbered in this order: triangles first, then spheres, then
 /// cones.
@@ -98,6 +98,7 @@ impl Primitives {
     ///
     /// # Panics
     /// If there is none.
+    #[inline(always)]
     pub(crate) fn get(&self, prim: u32) -> Primitive<'_> {
         let prim = prim as usize;
         let (spheres, cones) = (self.triangles.len(), self.triangles.len() + self.spheres.len());
@@ -110,21 +111,30 @@ impl Primitives {
         }
     }
 
+    /// The own box of the primitive of that number.
+    ///
+    /// # Panics
+    /// If there is none.
+    #[inline(always)]
+    pub(crate) fn own_box(&self, prim: u32) -> Aabb {
+        match self.get(prim) {
+            Primitive::Triangle(triangle) => triangle.own_box(),
+            Primitive::Sphere(sphere) => sphere.own_box(),
+            Primitive::Cone(cone) => cone.own_box(),
+        }
+    }
+
     /// The own boxes of all primitives, in their order.
     pub(crate) fn own_boxes(&self) -> impl Iterator<Item = Aabb> {
-        let triangles = self.triangles.iter().map(Triangle::own_box);
-        let round = self.spheres.iter().map(Sphere::own_box);
-        triangles.chain(round).chain(self.cones.iter().map(Cone::own_box))
+        (0..self.len() as u32).map(|prim| self.own_box(prim))
     }
 
     /// Refuses what the kernels make no promise for.
-    pub(crate) fn check(&self) -> Result<(), BuildError> {
+    pub(crate) fn check(&self, join: &impl Join) -> Result<(), BuildError> {
         if self.len() > MAX_PRIMITIVES {
             return Err(BuildError::TooMany { primitives: self.len(), limit: MAX_PRIMITIVES });
         }
-        for (prim, triangle) in self.triangles.iter().enumerate() {
-            check_points(prim, &triangle.corners)?;
-        }
+        check_triangles(0, &self.triangles, join)?;
         for (prim, sphere) in (self.triangles.len()..).zip(&self.spheres) {
             check_points(prim, &[sphere.center, Vec3::splat(sphere.radius)])?;
             if sphere.radius <= 0.0 {
@@ -142,15 +152,40 @@ impl Primitives {
     }
 }
 
+/// The least number of triangles of which the halves may be looked at at once.
+const PARALLEL: usize = 1 << 14;
+
+/// Refuses the first that is to be refused of some triangles, of which the first has that number.
+fn check_triangles(
+    first: usize,
+    triangles: &[Triangle],
+    join: &impl Join,
+) -> Result<(), BuildError> {
+    if triangles.len() >= PARALLEL {
+        let middle = triangles.len() / 2;
+        let (left, right) = triangles.split_at(middle);
+        let (left, right) = join.join(
+            || check_triangles(first, left, join),
+            || check_triangles(first + middle, right, join),
+        );
+        return left.and(right);
+    }
+    let mut triangles = (first..).zip(triangles);
+    triangles.try_for_each(|(prim, triangle)| check_points(prim, &triangle.corners))
+}
+
 /// Refuses a primitive with a coordinate that is not finite or too large.
-fn check_points(prim: usize, points: &[Vec3]) -> Result<(), BuildError> {
+#[inline(always)]
+fn check_points<const P: usize>(prim: usize, points: &[Vec3; P]) -> Result<(), BuildError> {
+    let in_range = |x: f32| x.abs() <= MAX_COORDINATE;
+    let in_range = |point: &Vec3| in_range(point.x) & in_range(point.y) & in_range(point.z);
+    if points.iter().fold(true, |all, point| all & in_range(point)) {
+        return Ok(());
+    }
     if !points.iter().all(|point| point.is_finite()) {
         return Err(BuildError::NotFinite { prim });
     }
-    if points.iter().any(|point| point.abs().max_element() > MAX_COORDINATE) {
-        return Err(BuildError::OutOfRange { prim });
-    }
-    Ok(())
+    Err(BuildError::OutOfRange { prim })
 }
 
 /// A sphere as leaves hold it: 32 bytes.

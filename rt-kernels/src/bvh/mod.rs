@@ -82,7 +82,7 @@ impl Bvh {
         plan: Plan,
         join: &impl Join,
     ) -> Result<Bvh, BuildError> {
-        primitives.check()?;
+        primitives.check(join)?;
         let plan = Plan { layout: plan.layout(), ..plan };
         let tree = plan.builder.build(primitives, plan.layout.block(primitives), join);
         let array = match plan.layout {
@@ -103,7 +103,7 @@ impl Bvh {
         builder: Builder,
         join: &impl Join,
     ) -> Result<Bvh, BuildError> {
-        primitives.check()?;
+        primitives.check(join)?;
         let plan = Plan { builder, layout: Layout::Skip, ..Plan::default() };
         let tree = builder.build(primitives, Block::ONE, join);
         let array = SkipArray::unsorted(primitives, tree, plan.method);

@@ -1,6 +1,6 @@
 //! New positions for an old tree.
 
-use crate::BuildError;
+use crate::bvh::{BuildError, Sequential};
 use crate::geom::Aabb;
 use crate::primitives::{KINDS, Primitives};
 
@@ -38,7 +38,7 @@ pub(super) trait Refit {
 /// Where own boxes were cut, the pieces are not: each leaf has the whole, as if it had been put
 /// there so. That is right as it would be for any tree.
 pub(super) fn refit(array: &mut impl Refit, primitives: &Primitives) -> Result<(), RefitError> {
-    primitives.check()?;
+    primitives.check(&Sequential)?;
     let (built, given) = (array.counts(), primitives.counts());
     if built != given {
         return Err(RefitError::Counts { built, given });

@@ -132,7 +132,7 @@ impl KdTree {
         plan: KdPlan,
         join: &impl Join,
     ) -> Result<KdTree, BuildError> {
-        primitives.check()?;
+        primitives.check(join)?;
         let (bounds, mut cells) = build::build(plan.builder, primitives, plan.method, join);
         let store = fill(primitives, plan.method, &mut cells.list);
         let stamps = Stamps::new(plan.mailbox, store.slots());

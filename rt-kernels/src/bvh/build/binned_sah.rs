@@ -9,8 +9,8 @@
 //! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007. Deviation: all
 //! three axes are binned.
 
-use simd4::f32x4;
 use simd4::prelude::*;
+use simd4::{dispatch, f32x4};
 
 use super::sah::{Block, SAH_DEPTH, Side, both};
 use super::{Bounds, Join, Node, Reference, Tree};
@@ -26,6 +26,9 @@ const PARALLEL: usize = 1 << 15;
 /// From so many references on, every other one has bins of its own: neighbours go to the same bins, and
 /// the second would wait until the first is in memory.
 const APART: usize = 64;
+
+/// From so many on, two of three have.
+const FAR_APART: usize = 1024;
 
 /// The bins an axis for so many references. Among few, more borders find nothing much cheaper, and to
 /// look through the bins would take longer than to fill them.
@@ -45,41 +48,150 @@ pub(super) fn build_from(
     depth: usize,
     join: &impl Join,
 ) -> Tree {
-    let mut order: Vec<Reference> = Reference::all(primitives).collect();
+    let mut order = Reference::all(primitives, join);
+    let binned = Binned::new(block, join);
     let root = (!order.is_empty()).then(|| {
-        let extent = Extent::of(&order);
-        subtree(&mut order, extent, 0, block, depth, join)
+        let extent = binned.extent(&order);
+        binned.subtree(&mut order, extent, 0, depth)
     });
     Tree { root, order }
 }
 
-/// The tree of these references, which begin at `first` of all; `depth` is that of its root.
-fn subtree(
-    references: &mut [Reference],
-    extent: Extent,
-    first: usize,
-    block: Block,
-    depth: usize,
-    join: &impl Join,
-) -> Node {
-    let split = if depth < SAH_DEPTH && block.tests(references.len()) > 1 {
-        best_split(references, &extent.centers, block, join)
-    } else {
-        None
-    };
-    let [left, right] = match split {
-        Some(split) if extent.side.pays(split.cost, block) => split.partition(references, join),
-        _ if references.len() > MAX_SLOTS => halve(references, &extent.centers),
-        _ => return extent.side.leaf(first),
-    };
-    let middle = left.side.count;
-    let (lefts, rights) = references.split_at_mut(middle);
-    extent.side.inner(both(
-        join,
-        [lefts.len(), rights.len()],
-        || subtree(lefts, left, first, block, depth + 1, join),
-        || subtree(rights, right, first + middle, block, depth + 1, join),
-    ))
+/// How it is built. No tree depends on the level or on `join`.
+pub(super) struct Binned<'a, J> {
+    level: Level,
+    pub(super) block: Block,
+    pub(super) join: &'a J,
+}
+
+impl<'a, J: Join> Binned<'a, J> {
+    /// At the best level of this CPU.
+    pub(super) fn new(block: Block, join: &'a J) -> Self {
+        // What is wrong with the environment is told where rays are traced.
+        let best = Level::best().ok().or_else(|| Level::available().next_back());
+        Binned { level: best.expect("there is always one"), block, join }
+    }
+
+    /// The tree of these references, which begin at `first` of all; `depth` is that of its root.
+    fn subtree(
+        &self,
+        references: &mut [Reference],
+        extent: Extent,
+        first: usize,
+        depth: usize,
+    ) -> Node {
+        let split = if depth < SAH_DEPTH && self.block.tests(references.len()) > 1 {
+            self.best_split(references, &extent.centers)
+        } else {
+            None
+        };
+        let [left, right] = match split {
+            Some(split) if extent.side.pays(split.cost, self.block) => {
+                self.partition(&split, references)
+            }
+            _ if references.len() > MAX_SLOTS => self.halve(references, &extent.centers),
+            _ => return extent.side.leaf(first),
+        };
+        let middle = left.side.count;
+        let (lefts, rights) = references.split_at_mut(middle);
+        extent.side.inner(both(
+            self.join,
+            [lefts.len(), rights.len()],
+            || self.subtree(lefts, left, first, depth + 1),
+            || self.subtree(rights, right, first + middle, depth + 1),
+        ))
+    }
+
+    /// Where these references are.
+    pub(super) fn extent(&self, references: &[Reference]) -> Extent {
+        if references.len() >= PARALLEL {
+            let (left, right) = references.split_at(references.len() / 2);
+            let (left, right) = self.join.join(|| self.extent(left), || self.extent(right));
+            return left.and(&right);
+        }
+        references.iter().fold(Extent::none(), |all, one| all.and(&Extent::of(one)))
+    }
+
+    /// The cheapest split with something on both sides.
+    pub(super) fn best_split(&self, references: &[Reference], centers: &Bounds) -> Option<Split> {
+        if references.len() < 2 {
+            return None;
+        }
+        let binning = Binning::new(centers, bins_for(references.len()));
+        // To clear bins that nobody uses would take longer than to fill those of a few references.
+        if binning.bins <= BINS / 2 {
+            self.best_of::<{ BINS / 2 }>(&binning, references)
+        } else {
+            self.best_of::<BINS>(&binning, references)
+        }
+    }
+
+    fn best_of<const B: usize>(
+        &self,
+        binning: &Binning,
+        references: &[Reference],
+    ) -> Option<Split> {
+        if references.len() >= PARALLEL {
+            let bins = self.bins::<B>(binning, references);
+            return binning.cheapest(&bins, references.len(), self.block);
+        }
+        dispatch!(self.level, s => {
+            let mut bins = no_bins::<_, B>(s);
+            binning.fill(s, references, &mut bins);
+            binning.cheapest(&bins, references.len(), self.block)
+        })
+    }
+
+    /// What is in each bin of each axis.
+    fn bins<const B: usize>(&self, binning: &Binning, references: &[Reference]) -> Bins<B> {
+        if references.len() < PARALLEL {
+            return dispatch!(self.level, s => {
+                let mut bins = no_bins(s);
+                binning.fill(s, references, &mut bins);
+                bins
+            });
+        }
+        let (left, right) = references.split_at(references.len() / 2);
+        let (mut bins, more) =
+            self.join.join(|| self.bins(binning, left), || self.bins(binning, right));
+        merge(&mut bins, &more);
+        bins
+    }
+
+    /// Puts what goes left first. Where both sides are then.
+    pub(super) fn partition(&self, split: &Split, references: &mut [Reference]) -> [Extent; 2] {
+        let (_, centers) = self.sort(split, references);
+        [0, 1].map(|i| Extent { side: split.sides[i], centers: centers[i] })
+    }
+
+    /// Puts what goes left first. How many those are, and the boxes around the centres of both sides.
+    fn sort(&self, split: &Split, references: &mut [Reference]) -> (usize, [Bounds; 2]) {
+        let count = references.len();
+        if count < PARALLEL {
+            return dispatch!(self.level, s => split.sort(s, references));
+        }
+        let (first, second) = references.split_at_mut(count / 2);
+        let ((before, centers), (after, more)) =
+            self.join.join(|| self.sort(split, first), || self.sort(split, second));
+        // What goes right of the first half changes places with what goes left of the second.
+        let (wrong, right) = (&mut first[before..], &mut second[..after]);
+        let moved = wrong.len().min(after);
+        swap(&mut wrong[..moved], &mut right[after - moved..], self.join);
+        (before + after, [0, 1].map(|i| centers[i].union(&more[i])))
+    }
+
+    /// Splits by count, along the axis on which the centres spread most.
+    pub(super) fn halve(&self, references: &mut [Reference], centers: &Bounds) -> [Extent; 2] {
+        let spread = centers.extent();
+        let axis = (1..3).fold(0, |best, k| if spread[k] > spread[best] { k } else { best });
+        let middle = references.len() / 2;
+        references.select_nth_unstable_by(middle, |a, b| {
+            let (a_center, b_center) = (a.center().to_array()[axis], b.center().to_array()[axis]);
+            a_center.total_cmp(&b_center).then(a.prim().cmp(&b.prim()))
+        });
+        let (left, right) = references.split_at(middle);
+        [self.extent(left), self.extent(right)]
+    }
 }
 
 /// Where references are.
@@ -91,20 +203,26 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    pub(super) fn of(references: &[Reference]) -> Extent {
-        let mut centers = Bounds::empty();
-        for reference in references {
-            centers = centers.union(&Bounds::point(reference.center()));
-        }
-        Extent { side: Side::of(references), centers }
+    fn none() -> Extent {
+        Extent { side: Side::empty(), centers: Bounds::empty() }
+    }
+
+    fn of(reference: &Reference) -> Extent {
+        let side = Side { bounds: *reference.bounds(), count: 1 };
+        Extent { side, centers: Bounds::point(reference.center()) }
+    }
+
+    fn and(mut self, other: &Extent) -> Extent {
+        self.side.add(&other.side.bounds, other.side.count);
+        Extent { centers: self.centers.union(&other.centers), ..self }
     }
 }
 
 /// From centres to bins, in the lanes of the axes.
 #[derive(Clone, Copy)]
 struct Binning {
-    origin: f32x4,
-    scale: f32x4,
+    origin: [f32; 4],
+    scale: [f32; 4],
     bins: usize,
 }
 
@@ -112,63 +230,134 @@ impl Binning {
     #[inline(always)]
     fn new(centers: &Bounds, bins: usize) -> Binning {
         let [origin, end] = centers.corners();
-        Binning { origin, scale: f32x4::from(bins as f32) / (end - origin), bins }
+        let scale = f32x4::from(bins as f32) / (end - origin);
+        Binning { origin: origin.to_array(), scale: scale.to_array(), bins }
     }
 
-    /// Where a reference is on each axis, in bins from the first. (`max` makes 0 of the NaN of an axis
+    /// Puts references into their bins.
+    #[inline(always)]
+    fn fill<S: Simd, const B: usize>(&self, s: S, references: &[Reference], bins: &mut Bins<B>) {
+        match references.len() {
+            FAR_APART.. => self.fill_apart::<S, B, 2>(s, references, bins),
+            APART.. => self.fill_apart::<S, B, 1>(s, references, bins),
+            _ => self.fill_apart::<S, B, 0>(s, references, bins),
+        }
+    }
+
+    /// The same, where after each reference so many neighbours are in bins of their own first.
+    #[inline(always)]
+    fn fill_apart<S: Simd, const B: usize, const MORE: usize>(
+        &self,
+        s: S,
+        references: &[Reference],
+        bins: &mut Bins<B>,
+    ) {
+        let along = Along::new(s, self);
+        let mut more: [Bins<B>; MORE] = [no_bins(s); MORE];
+        let mut groups = references.chunks_exact(1 + MORE);
+        for group in &mut groups {
+            along.put(s, &group[0], bins);
+            for i in 0..MORE {
+                along.put(s, &group[1 + i], &mut more[i]);
+            }
+        }
+        groups.remainder().iter().for_each(|one| along.put(s, one, bins));
+        more.iter().for_each(|more| merge(bins, more));
+    }
+
+    /// The cheapest split of so many references, with something on both sides.
+    #[inline(always)]
+    fn cheapest<const B: usize>(
+        &self,
+        bins: &Bins<B>,
+        count: usize,
+        block: Block,
+    ) -> Option<Split> {
+        let used = self.bins;
+        let mut best = None;
+        let mut least = f32::INFINITY;
+        for (axis, bins) in bins.iter().enumerate() {
+            let bins = &bins[..used];
+            let mut right_costs = [0.0; B];
+            let mut right = Side::empty();
+            for (bin, cost) in bins.iter().zip(&mut right_costs[..used]).skip(1).rev() {
+                right.add(&bin.bounds, bin.count);
+                *cost = right.cost(block);
+            }
+            let mut left = Side::empty();
+            for border in 1..used {
+                left.add(&bins[border - 1].bounds, bins[border - 1].count);
+                let cost = left.cost(block) + right_costs[border];
+                let both = left.count > 0 && left.count < count;
+                if both && cost < least {
+                    (best, least) = (Some((axis, border)), cost);
+                }
+            }
+        }
+        let (axis, border) = best?;
+        let mut sides = [Side::empty(); 2];
+        for (place, bin) in bins[axis][..used].iter().enumerate() {
+            sides[usize::from(place >= border)].add(&bin.bounds, bin.count);
+        }
+        Some(Split { binning: *self, axis, border, sides, cost: least })
+    }
+}
+
+/// The same in registers.
+struct Along<S: Simd> {
+    origin: S::f32x4,
+    scale: S::f32x4,
+    last: S::f32x4,
+}
+
+impl<S: Simd> Along<S> {
+    #[inline(always)]
+    fn new(s: S, binning: &Binning) -> Self {
+        let Binning { origin, scale, bins } = binning;
+        let [origin, scale] = [origin, scale].map(|lanes| S::f32x4::load(s, lanes));
+        Along { origin, scale, last: S::f32x4::splat(s, (bins - 1) as u32 as f32) }
+    }
+
+    /// Where twice a centre is on each axis, in bins from the first. (`max` makes 0 of the NaN of an axis
     /// without extent.)
     #[inline(always)]
-    fn along(&self, reference: &Reference) -> f32x4 {
-        let along = (reference.center() - self.origin) * self.scale;
-        along.max(f32x4::from(0.0)).min(f32x4::from((self.bins - 1) as f32))
-    }
-
-    /// The bins of a reference on all axes.
-    #[inline(always)]
-    fn bins(&self, reference: &Reference) -> [usize; 3] {
-        let [x, y, z, _] = self.along(reference).to_i32_fast().to_array();
-        [x as usize, y as usize, z as usize]
-    }
-
-    /// What is in each bin of each axis.
-    fn fill<const B: usize>(&self, references: &[Reference], join: &impl Join) -> Bins<B> {
-        if references.len() >= PARALLEL {
-            let (left, right) = references.split_at(references.len() / 2);
-            let (mut bins, more) =
-                join.join(|| self.fill::<B>(left, join), || self.fill::<B>(right, join));
-            merge(&mut bins, &more);
-            return bins;
-        }
-        let (pairs, others) = match references.len() {
-            APART.. => references.as_chunks(),
-            _ => (&[][..], references),
-        };
-        let mut bins = [[Side::empty(); B]; 3];
-        others.iter().for_each(|reference| self.put(reference, &mut bins));
-        if !pairs.is_empty() {
-            let mut more = [[Side::empty(); B]; 3];
-            for [one, next] in pairs {
-                self.put(one, &mut bins);
-                self.put(next, &mut more);
-            }
-            merge(&mut bins, &more);
-        }
-        bins
+    fn of(&self, s: S, center: S::f32x4) -> S::f32x4 {
+        let along = (center - self.origin) * self.scale;
+        along.max(S::f32x4::splat(s, 0.0)).min(self.last)
     }
 
     /// Puts a reference into its bins.
     #[inline(always)]
-    fn put<const B: usize>(&self, reference: &Reference, bins: &mut Bins<B>) {
-        for (bins, place) in bins.iter_mut().zip(self.bins(reference)) {
-            bins[place].add(reference.bounds(), 1);
+    fn put<const B: usize>(&self, s: S, reference: &Reference, bins: &mut Bins<B>) {
+        let lanes = reference.bounds().lanes(s);
+        let [x, y, z, _] = self.of(s, center::<S>(lanes)).to_i32_fast().to_array();
+        for (bins, place) in bins.iter_mut().zip([x, y, z]) {
+            let bin = &mut bins[place as usize % B];
+            bin.bounds = Bounds::new(bin.bounds.lanes(s).min(lanes));
+            bin.count += 1;
         }
     }
+}
+
+/// Twice the centre of a box.
+#[inline(always)]
+fn center<S: Simd>(lanes: S::f32x8) -> S::f32x4 {
+    let (low, high) = lanes.halves();
+    low - high
 }
 
 /// The bins of each axis.
 type Bins<const B: usize> = [[Side; B]; 3];
 
+/// Nothing in any. (Written by whole registers, as it is read.)
+#[inline(always)]
+fn no_bins<S: Simd, const B: usize>(s: S) -> Bins<B> {
+    let bounds = Bounds::new(S::f32x8::splat(s, f32::INFINITY));
+    [[Side { bounds, count: 0 }; B]; 3]
+}
+
 /// Adds to bins what is in others.
+#[inline(always)]
 fn merge<const B: usize>(bins: &mut Bins<B>, more: &Bins<B>) {
     for (bin, more) in bins.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
         bin.add(&more.bounds, more.count);
@@ -187,97 +376,29 @@ pub(super) struct Split {
     pub(super) cost: f32,
 }
 
-/// The cheapest split with something on both sides.
-pub(super) fn best_split(
-    references: &[Reference],
-    centers: &Bounds,
-    block: Block,
-    join: &impl Join,
-) -> Option<Split> {
-    // To clear bins that nobody uses would take longer than to fill those of a few references.
-    let used = bins_for(references.len());
-    if used <= BINS / 2 {
-        best_of::<{ BINS / 2 }>(references, centers, used, block, join)
-    } else {
-        best_of::<BINS>(references, centers, used, block, join)
-    }
-}
-
-/// The cheapest of the splits between so many bins, at most `B`.
-fn best_of<const B: usize>(
-    references: &[Reference],
-    centers: &Bounds,
-    used: usize,
-    block: Block,
-    join: &impl Join,
-) -> Option<Split> {
-    if references.len() < 2 {
-        return None;
-    }
-    let binning = Binning::new(centers, used);
-    let bins = binning.fill::<B>(references, join);
-    let mut best = None;
-    let mut least = f32::INFINITY;
-    for (axis, bins) in bins.iter().enumerate() {
-        let bins = &bins[..used];
-        let mut right_costs = [0.0; B];
-        let mut right = Side::empty();
-        for (bin, cost) in bins.iter().zip(&mut right_costs[..used]).skip(1).rev() {
-            right.add(&bin.bounds, bin.count);
-            *cost = right.cost(block);
-        }
-        let mut left = Side::empty();
-        for border in 1..used {
-            left.add(&bins[border - 1].bounds, bins[border - 1].count);
-            let cost = left.cost(block) + right_costs[border];
-            let both = left.count > 0 && left.count < references.len();
-            if both && cost < least {
-                (best, least) = (Some((axis, border)), cost);
-            }
-        }
-    }
-    let (axis, border) = best?;
-    let mut sides = [Side::empty(); 2];
-    for (place, bin) in bins[axis][..used].iter().enumerate() {
-        sides[usize::from(place >= border)].add(&bin.bounds, bin.count);
-    }
-    Some(Split { binning, axis, border, sides, cost: least })
-}
-
 impl Split {
-    /// Puts what goes left first. Where both sides are then.
-    pub(super) fn partition(&self, references: &mut [Reference], join: &impl Join) -> [Extent; 2] {
-        let (_, centers) = self.sort(references, join);
-        [0, 1].map(|i| Extent { side: self.sides[i], centers: centers[i] })
-    }
-
     /// Puts what goes left first. How many those are, and the boxes around the centres of both sides.
-    fn sort(&self, references: &mut [Reference], join: &impl Join) -> (usize, [Bounds; 2]) {
-        let count = references.len();
-        if count >= PARALLEL {
-            let (first, second) = references.split_at_mut(count / 2);
-            let ((before, centers), (after, more)) =
-                join.join(|| self.sort(first, join), || self.sort(second, join));
-            // What goes right of the first half changes places with what goes left of the second.
-            let (wrong, right) = (&mut first[before..], &mut second[..after]);
-            let moved = wrong.len().min(after);
-            swap(&mut wrong[..moved], &mut right[after - moved..], join);
-            return (before + after, [0, 1].map(|i| centers[i].union(&more[i])));
-        }
-        let border = f32x4::from(self.border as f32);
-        let mut centers = [Bounds::empty(); 2];
-        let mut middle = 0;
-        for next in 0..count {
-            let reference = references[next];
-            let left = self.binning.along(&reference).lt(border).bitmask() >> self.axis & 1;
-            let side = &mut centers[1 - left as usize];
-            *side = side.union(&Bounds::point(reference.center()));
+    #[inline(always)]
+    fn sort<S: Simd>(&self, s: S, references: &mut [Reference]) -> (usize, [Bounds; 2]) {
+        let along = Along::new(s, &self.binning);
+        let border = S::f32x4::splat(s, self.border as f32);
+        let none = S::f32x8::splat(s, f32::INFINITY);
+        let [mut lefts, mut rights] = [none; 2];
+        let (axis, mut middle) = (self.axis, 0);
+        for next in 0..references.len() {
+            let center = center::<S>(references[next].bounds().lanes(s));
+            let left = along.of(s, center).lt(border).bitmask() >> axis & 1;
+            let point = S::f32x8::concat(center, -center);
+            let other =
+                S::f32x8::splat(s, if left == 1 { f32::NEG_INFINITY } else { f32::INFINITY });
+            lefts = lefts.min(point.max(other));
+            rights = rights.min(point.max(-other));
             // Those from `middle` on go right, so that it is right to swap in any case: a branch here
             // is one that no CPU foretells.
             references.swap(next, middle);
             middle += left as usize;
         }
-        (middle, centers)
+        (middle, [lefts, rights].map(Bounds::new))
     }
 }
 
@@ -289,17 +410,4 @@ fn swap(a: &mut [Reference], b: &mut [Reference], join: &impl Join) {
     let middle = a.len() / 2;
     let ((a, more_a), (b, more_b)) = (a.split_at_mut(middle), b.split_at_mut(middle));
     join.join(|| swap(a, b, join), || swap(more_a, more_b, join));
-}
-
-/// Splits by count, along the axis on which the centres spread most.
-pub(super) fn halve(references: &mut [Reference], centers: &Bounds) -> [Extent; 2] {
-    let spread = centers.extent();
-    let axis = (1..3).fold(0, |best, k| if spread[k] > spread[best] { k } else { best });
-    let middle = references.len() / 2;
-    references.select_nth_unstable_by(middle, |a, b| {
-        let (a_center, b_center) = (a.center().to_array()[axis], b.center().to_array()[axis]);
-        a_center.total_cmp(&b_center).then(a.prim().cmp(&b.prim()))
-    });
-    let (left, right) = references.split_at(middle);
-    [Extent::of(left), Extent::of(right)]
 }

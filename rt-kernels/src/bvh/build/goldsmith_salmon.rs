@@ -25,7 +25,7 @@
 //! 3. nodes become leaves where testing all primitives below costs no more than testing boxes first.
 
 use super::sah::Block;
-use super::{Bounds, Content, Node, Reference, Tree};
+use super::{Bounds, Content, Node, Reference, Sequential, Tree};
 use crate::bvh::layout::MAX_SLOTS;
 use crate::primitives::Primitives;
 
@@ -37,7 +37,7 @@ const MAX_DEPTH: usize = 64;
 
 /// Builds the tree of all primitives.
 pub(crate) fn build(primitives: &Primitives) -> Tree {
-    let mut references: Vec<Reference> = Reference::all(primitives).collect();
+    let mut references = Reference::all(primitives, &Sequential);
     shuffle(&mut references);
     Growing::new(&references).finish()
 }
@@ -214,7 +214,7 @@ mod tests {
         };
         let scene =
             Primitives { triangles: (0..2000).map(triangle).collect(), ..Primitives::default() };
-        let references: Vec<_> = Reference::all(&scene).collect();
+        let references = Reference::all(&scene, &Sequential);
         let tree = Growing::new(&references).finish();
         assert_eq!(tree.root.expect("there are primitives").depth(), MAX_DEPTH);
         assert_eq!(tree.order.len(), scene.len());

@@ -1,76 +1,96 @@
 //! What builders work on: primitives as boxes, in lanes.
 
-use simd4::f32x4;
 use simd4::prelude::*;
+use simd4::{Block8, f32x4, f32x8};
 
+use super::Join;
+use crate::collect::collect;
 use crate::geom::Aabb;
 use crate::primitives::Primitives;
 
-/// A box in lanes: x, y and z in the first three. The fourth means nothing.
+/// A box. In memory it is x, y and z of the least corner, a number of no account, and the opposites of x, y
+/// and z of the greatest, and another: so the union is the least of all, in one register where one is large
+/// enough.
 #[derive(Clone, Copy)]
-pub(crate) struct Bounds {
-    low: f32x4,
-    high: f32x4,
-}
+pub(crate) struct Bounds(Block8<f32>);
 
 impl Bounds {
+    /// From its [lanes](Bounds::lanes).
+    #[inline(always)]
+    pub(super) fn new<V: SimdF32<Array = [f32; 8]>>(lanes: V) -> Bounds {
+        Bounds(lanes.to_array().into())
+    }
+
+    /// Its lanes, for the loops that a level is chosen for. All else is for any.
+    #[inline(always)]
+    pub(super) fn lanes<S: Simd>(&self, s: S) -> S::f32x8 {
+        S::f32x8::load(s, &self.0.0)
+    }
+
+    #[inline(always)]
+    fn fixed(&self) -> f32x8 {
+        f32x8::from(self.0.0)
+    }
+
     /// The box of nothing: its union with any box is that box.
     #[inline(always)]
     pub(super) fn empty() -> Bounds {
-        Bounds { low: f32x4::from(f32::INFINITY), high: f32x4::from(f32::NEG_INFINITY) }
+        Bounds::new(f32x8::from(f32::INFINITY))
     }
 
     /// The box of one point.
     #[inline(always)]
     pub(super) fn point(point: f32x4) -> Bounds {
-        Bounds { low: point, high: point }
+        Bounds::new(f32x8::concat(point, -point))
     }
 
     /// All points between two values on one axis.
     #[inline(always)]
     pub(super) fn slab(axis: usize, [low, high]: [f32; 2]) -> Bounds {
-        let (mut lows, mut highs) = ([f32::NEG_INFINITY; 4], [f32::INFINITY; 4]);
-        (lows[axis], highs[axis]) = (low, high);
-        Bounds { low: f32x4::from(lows), high: f32x4::from(highs) }
+        let mut sides = [f32::NEG_INFINITY; 8];
+        (sides[axis], sides[axis + 4]) = (low, -high);
+        Bounds(sides.into())
     }
 
     /// The least and the greatest corner.
     #[inline(always)]
     pub(super) fn corners(&self) -> [f32x4; 2] {
-        [self.low, self.high]
+        let (low, high) = self.fixed().halves();
+        [low, -high]
     }
 
     /// The smallest box that contains both.
     #[inline(always)]
     pub(super) fn union(&self, other: &Bounds) -> Bounds {
-        Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
+        Bounds::new(self.fixed().min(other.fixed()))
     }
 
     /// The largest box within both.
     #[inline(always)]
     pub(super) fn intersection(&self, other: &Bounds) -> Bounds {
-        Bounds { low: self.low.max(other.low), high: self.high.min(other.high) }
+        Bounds::new(self.fixed().max(other.fixed()))
     }
 
     /// The length along each axis; negative where it is empty.
     #[inline(always)]
     pub(super) fn extent(&self) -> [f32; 3] {
-        let [x, y, z, _] = (self.high - self.low).to_array();
+        let [low, high] = self.corners();
+        let [x, y, z, _] = (high - low).to_array();
         [x, y, z]
     }
 
     /// Half the area of the surface; 0 for an empty box.
     #[inline(always)]
     pub(super) fn half_area(&self) -> f32 {
-        let extent = (self.high - self.low).max(f32x4::from(0.0));
-        let [x, y, z, _] = extent.to_array();
+        let [low, high] = self.corners();
+        let [x, y, z, _] = (high - low).max(f32x4::from(0.0)).to_array();
         x * y + y * z + z * x
     }
 
     /// The same box out of lanes.
     #[inline(always)]
     pub(crate) fn aabb(&self) -> Aabb {
-        let ([x0, y0, z0, _], [x1, y1, z1, _]) = (self.low.to_array(), self.high.to_array());
+        let [[x0, y0, z0, _], [x1, y1, z1, _]] = self.corners().map(|corner| corner.to_array());
         Aabb { axes: [[x0, x1], [y0, y1], [z0, z1]] }
     }
 }
@@ -78,7 +98,7 @@ impl Bounds {
 /// A primitive in a builder's hands: its own box, or a piece of it where the box was cut. 32 bytes.
 #[derive(Clone, Copy)]
 pub(crate) struct Reference {
-    /// The free lane of its low corner has the primitive's number.
+    /// The number beside its least corner has the primitive's.
     bounds: Bounds,
 }
 
@@ -91,20 +111,18 @@ impl Reference {
     pub(super) fn new(aabb: &Aabb, prim: u32) -> Reference {
         let [[x0, x1], [y0, y1], [z0, z1]] = aabb.axes;
         let number = f32::from_bits(prim | NORMAL);
-        let low = f32x4::from([x0, y0, z0, number]);
-        Reference { bounds: Bounds { low, high: f32x4::from([x1, y1, z1, 0.0]) } }
+        Reference { bounds: Bounds([x0, y0, z0, number, -x1, -y1, -z1, 0.0].into()) }
     }
 
     /// One for every primitive.
-    pub(super) fn all(primitives: &Primitives) -> impl Iterator<Item = Reference> {
-        primitives.own_boxes().zip(0..).map(|(aabb, prim)| Reference::new(&aabb, prim))
+    pub(super) fn all(primitives: &Primitives, join: &impl Join) -> Vec<Reference> {
+        collect(primitives.len(), join, |i| Reference::new(&primitives.own_box(i as u32), i as u32))
     }
 
     /// The primitive's number.
     #[inline(always)]
     pub(crate) fn prim(&self) -> u32 {
-        let [_, _, _, number] = self.bounds.low.to_array();
-        number.to_bits() ^ NORMAL
+        self.bounds.0[3].to_bits() ^ NORMAL
     }
 
     /// Its box, or the piece.
@@ -122,6 +140,7 @@ impl Reference {
     /// Twice the centre of the box.
     #[inline(always)]
     pub(super) fn center(&self) -> f32x4 {
-        self.bounds.low + self.bounds.high
+        let [low, high] = self.bounds.corners();
+        low + high
     }
 }

@@ -82,7 +82,7 @@ impl Side {
     /// The cost of testing all.
     #[inline(always)]
     pub(super) fn cost(&self, block: Block) -> f32 {
-        block.tests(self.count) as f32 * self.bounds.half_area()
+        block.tests(self.count) as u32 as f32 * self.bounds.half_area()
     }
 
     /// Whether a split with that sum of costs pays.

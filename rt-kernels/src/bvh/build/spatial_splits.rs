@@ -1,7 +1,7 @@
 //! Top-down building with spatial splits: where a plane through a box beats every way to share the
 //! references out, those it passes through are cut in two.
 //!
-//! A split of references ([`binned_sah`]) is compared with planes at the borders of bins, if the boxes
+//! A split of references ([`binned_sah`](super::binned_sah)) is compared with planes at the borders of bins, if the boxes
 //! of its sides overlap by more than 10^-5 of the root's surface. A reference that straddles the plane
 //! goes to both sides with a piece of its box, or whole to one where that is cheaper. References grow
 //! by no more than three tenths of the primitives; what may be added is shared out among subtrees in
@@ -36,7 +36,7 @@
 //! Source: Stich, Friedrich, Dietrich, "Spatial Splits in Bounding Volume Hierarchies", 2009.
 //! Deviations: the above; references grow within a bound.
 
-use super::binned_sah::{self, Extent};
+use super::binned_sah::{Binned, Extent};
 use super::sah::{Block, SAH_DEPTH, Side, both};
 use super::{Bounds, Join, Node, Reference, Tree};
 use crate::bvh::layout::MAX_SLOTS;
@@ -64,17 +64,18 @@ pub(super) fn build_from(
     depth: usize,
     join: &impl Join,
 ) -> Tree {
-    let mut order: Vec<Reference> = Reference::all(primitives).collect();
+    let mut order = Reference::all(primitives, join);
     let count = order.len();
     if count == 0 {
         return Tree { root: None, order };
     }
-    let extent = Extent::of(&order);
+    let binned = Binned::new(block, join);
+    let extent = binned.extent(&order);
     let overlap = OVERLAP * extent.side.bounds.half_area();
     let spare = ((count as f64 * GROWTH) as usize).min(MAX_PRIMITIVES - count);
     order.resize(count + spare, order[0]);
-    let room = Room { references: &mut order, extent, first: 0, block };
-    let root = room.subtree(overlap, depth, join);
+    let room = Room { references: &mut order, extent, first: 0 };
+    let root = room.subtree(&binned, overlap, depth);
     Tree { root: Some(root), order }
 }
 
@@ -85,17 +86,16 @@ struct Room<'a> {
     extent: Extent,
     /// Where the room begins among all.
     first: usize,
-    block: Block,
 }
 
 impl<'a> Room<'a> {
     /// The tree of the references; `depth` is that of its root. Spatial splits are tried where others
     /// overlap by more than `overlap`.
-    fn subtree(self, overlap: f32, depth: usize, join: &impl Join) -> Node {
-        let (Extent { side: whole, centers }, block) = (self.extent, self.block);
+    fn subtree<J: Join>(self, binned: &Binned<'_, J>, overlap: f32, depth: usize) -> Node {
+        let (Extent { side: whole, centers }, block) = (self.extent, binned.block);
         let (all, spare) = self.references.split_at_mut(whole.count);
         let split = if depth < SAH_DEPTH && block.tests(whole.count) > 1 {
-            binned_sah::best_split(all, &centers, block, join)
+            binned.best_split(all, &centers)
         } else {
             None
         };
@@ -106,22 +106,22 @@ impl<'a> Room<'a> {
                 .then(|| plane.cut(all, block))?
         });
         let (left, right) = match (cut, split) {
-            (Some(sides), _) => self.share_out(&sides),
+            (Some(sides), _) => self.share_out(binned, &sides),
             (None, Some(split)) if whole.pays(split.cost, block) => {
-                let extents = split.partition(all, join);
+                let extents = binned.partition(&split, all);
                 self.split(extents)
             }
             _ if whole.count > MAX_SLOTS => {
-                let extents = binned_sah::halve(all, &centers);
+                let extents = binned.halve(all, &centers);
                 self.split(extents)
             }
             _ => return whole.leaf(self.first),
         };
         whole.inner(both(
-            join,
+            binned.join,
             [left.extent.side.count, right.extent.side.count],
-            || left.subtree(overlap, depth + 1, join),
-            || right.subtree(overlap, depth + 1, join),
+            || left.subtree(binned, overlap, depth + 1),
+            || right.subtree(binned, overlap, depth + 1),
         ))
     }
 
@@ -133,20 +133,24 @@ impl<'a> Room<'a> {
         let spare = self.references.len() - count;
         let at = middle + (spare as u64 * middle as u64 / count as u64) as usize;
         self.references.copy_within(middle..count, at);
-        let Room { references, first, block, .. } = self;
+        let Room { references, first, .. } = self;
         let (lefts, rights) = references.split_at_mut(at);
         (
-            Room { references: lefts, extent: left, first, block },
-            Room { references: rights, extent: right, first: first + at, block },
+            Room { references: lefts, extent: left, first },
+            Room { references: rights, extent: right, first: first + at },
         )
     }
 
     /// These references in place of those that are there.
-    fn share_out(self, [left, right]: &[Vec<Reference>; 2]) -> (Room<'a>, Room<'a>) {
+    fn share_out(
+        self,
+        binned: &Binned<'_, impl Join>,
+        [left, right]: &[Vec<Reference>; 2],
+    ) -> (Room<'a>, Room<'a>) {
         let middle = left.len();
         self.references[..middle].copy_from_slice(left);
         self.references[middle..middle + right.len()].copy_from_slice(right);
-        self.split([Extent::of(left), Extent::of(right)])
+        self.split([binned.extent(left), binned.extent(right)])
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) fn build_from(
     depth: usize,
     join: &impl Join,
 ) -> Tree {
-    let all: Vec<Reference> = Reference::all(primitives).collect();
+    let all = Reference::all(primitives, join);
     let sorted = |axis| {
         let mut sorted = all.clone();
         sorted.sort_unstable_by(|a, b| compare(a, b, axis));

@@ -49,14 +49,6 @@ impl<const N: usize> Subtree<N> {
         }
     }
 
-    /// Calls with every leaf.
-    pub(super) fn leaves(&self, leaf: &mut impl FnMut(&build::Node)) {
-        match self {
-            Subtree::Leaf(node) => leaf(node),
-            Subtree::Inner(inner) => inner.children.iter().for_each(|child| child.leaves(leaf)),
-        }
-    }
-
     /// The least cost as up to `more` children of a wide node and one.
     fn cost(&self, more: usize) -> f32 {
         match self {

@@ -6,7 +6,7 @@
 //! to test them one by one from the second on.
 //!
 //! What is converted does not depend on `join`: subtrees are put together, and blocks filled, each by
-//! itself; nodes are laid out one after the other.
+//! itself, and so are the nodes below the first ones laid out, and put one after the other.
 
 use std::ops::Range;
 
@@ -14,6 +14,7 @@ use super::MAX_SLOTS;
 use super::collapse::{Inner, Subtree};
 use super::wide::{Child, Wide, WideNode, cone, record, sphere};
 use crate::bvh::build::{self, Content, Join, Reference};
+use crate::collect::collect;
 use crate::geom::Aabb;
 use crate::primitives::{KINDS, Primitives, kind};
 use crate::tri::{Record, RecordBlock};
@@ -28,45 +29,34 @@ impl<const N: usize> Wide<N> {
     pub(crate) fn new(primitives: &Primitives, tree: build::Tree, join: &impl Join) -> Self {
         let build::Tree { root, order: mut references } = tree;
         let counts = primitives.counts();
-        let mut wide = Wide {
-            nodes: Vec::new(),
-            blocks: Vec::new(),
-            spheres: Vec::with_capacity(primitives.spheres.len()),
-            cones: Vec::with_capacity(primitives.cones.len()),
-            counts,
-            depth: 0,
-        };
-        let Some(root) = root else { return wide };
-        if counts.iter().filter(|&&count| count > 0).count() > 1 {
+        let several = counts.iter().filter(|&&count| count > 0).count() > 1;
+        if let Some(root) = root.as_ref().filter(|_| several) {
             root.leaves(&mut |_, range| {
                 references[range].sort_by_key(|one| kind(&counts, one.prim()));
             });
         }
-        let blocks = Blocks { counts, references: &references };
-        let whole = blocks.subtree(root, 0, join);
-        let most = blocks.most(&whole);
-        let leaves = [const { Vec::new() }; KINDS];
-        let (slots, prims) = (Vec::new(), Vec::new());
-        let mut converter = Converter { primitives, blocks, leaves, wide: &mut wide, slots, prims };
-        let children = match whole {
-            Subtree::Inner(inner) => open(inner, 1),
-            leaf => vec![leaf],
+        let pieces = references.len() > primitives.len();
+        let blocks = Blocks { counts, pieces, references: &references };
+        let Part { nodes, depth, blocks, round } = match root {
+            Some(root) => blocks.layout(root, join),
+            None => Part::default(),
         };
-        // Memory for the blocks takes about as long as to lay out the nodes.
-        let (_, empty) =
-            join.join(|| converter.node(children, 1), || vec![RecordBlock::new(&[]); most]);
-        let Converter { leaves: [_, of_spheres, of_cones], slots, .. } = converter;
-        let (blocks, spheres) = (slots.len(), wide.spheres.len());
-        for (leaves, before) in [(of_spheres, blocks), (of_cones, blocks + spheres)] {
-            for (node, lane) in leaves {
-                let Child(slots) = wide.nodes[node].child(lane);
-                wide.nodes[node].set_child(lane, Child(slots + ((before as u32) << 4)));
+        let [spheres, cones] = &round;
+        let mut wide = Wide {
+            nodes,
+            blocks: collect(blocks.len(), join, |i| block(primitives, &blocks[i])),
+            spheres: spheres.prims.iter().map(|&prim| sphere(primitives, prim)).collect(),
+            cones: cones.prims.iter().map(|&prim| cone(primitives, prim)).collect(),
+            counts,
+            depth,
+        };
+        let [of_spheres, of_cones] = [blocks.len(), blocks.len() + spheres.prims.len()];
+        for (Round { leaves, .. }, before) in round.iter().zip([of_spheres, of_cones]) {
+            for &(node, lane) in leaves {
+                let child = wide.nodes[node].child(lane).after(before);
+                wide.nodes[node].set_child(lane, child);
             }
         }
-        wide.blocks = empty;
-        // In a leaf, several pieces of a triangle are one.
-        wide.blocks.truncate(blocks);
-        fill(primitives, &slots, &mut wide.blocks, join);
         wide
     }
 }
@@ -77,6 +67,8 @@ const PARALLEL_DEPTHS: usize = 10;
 /// What is a leaf here, and what is a node.
 struct Blocks<'a, const N: usize> {
     counts: [usize; KINDS],
+    /// Whether a primitive may have several references.
+    pieces: bool,
     /// Those of a leaf are in the order of their kinds.
     references: &'a [Reference],
 }
@@ -101,21 +93,6 @@ impl<const N: usize> Blocks<'_, N> {
         Subtree::inner(aabb, children)
     }
 
-    /// How many blocks there may be.
-    fn most(&self, whole: &Subtree<N>) -> usize {
-        let mut most = 0;
-        whole.leaves(&mut |node| {
-            let mut references = 0;
-            node.leaves(&mut |_, range| {
-                if self.kind(&self.references[range.start]) == 0 {
-                    references += range.len();
-                }
-            });
-            most += references.div_ceil(N);
-        });
-        most
-    }
-
     /// How many nodes [`part`](Blocks::part) makes of one; 0 for what is a leaf here.
     fn parts(&self, node: &build::Node) -> usize {
         match &node.content {
@@ -124,9 +101,8 @@ impl<const N: usize> Blocks<'_, N> {
             Content::Inner(children) => children.len(),
             Content::Leaf(range) => {
                 let references = &self.references[range.clone()];
-                let of_one_kind =
-                    references.windows(2).all(|two| self.kind(&two[0]) == self.kind(&two[1]));
-                if of_one_kind && references.len() <= MAX_SLOTS { 0 } else { 2 }
+                let [first, last] = [0, references.len() - 1].map(|i| self.kind(&references[i]));
+                if first == last && references.len() <= MAX_SLOTS { 0 } else { 2 }
             }
         }
     }
@@ -172,108 +148,171 @@ impl<const N: usize> Blocks<'_, N> {
             Content::Leaf(range) => {
                 let left = room.checked_sub(range.len());
                 *room = left.unwrap_or_default();
-                let mut references = self.references[range.clone()].iter();
-                left.is_some() && references.all(|one| self.kind(one) == 0)
+                // Triangles are first.
+                left.is_some() && self.kind(&self.references[range.end - 1]) == 0
             }
         }
     }
 }
 
-/// A layout that grows.
-struct Converter<'a, const N: usize> {
-    primitives: &'a Primitives,
-    blocks: Blocks<'a, N>,
-    wide: &'a mut Wide<N>,
-    /// The nodes and lanes of the leaves of each kind, whose slots count from the first of that kind.
-    leaves: [Vec<(usize, usize)>; KINDS],
-    /// What will be in the blocks.
-    slots: Vec<Slot<N>>,
-    /// Those of one leaf.
-    prims: Vec<u32>,
+/// Down to this depth nodes are laid out one after the other, and what is below them by itself.
+const FIRST_PARTS: usize = 2;
+
+impl<const N: usize> Blocks<'_, N> {
+    /// Lays out a build tree.
+    fn layout(&self, root: build::Node, join: &impl Join) -> Part<N> {
+        let children = match self.subtree(root, 0, join) {
+            Subtree::Inner(inner) => open(inner, 1),
+            leaf => vec![leaf],
+        };
+        let mut first = Layout::new(self, FIRST_PARTS);
+        first.node(children, 1);
+        let Layout { mut part, below, .. } = first;
+        let (places, below): (Vec<_>, Vec<_>) = below.into_iter().unzip();
+        for (place, below) in places.into_iter().zip(self.parts_below(below, join)) {
+            part.append(place, below);
+        }
+        part
+    }
+
+    /// Lays out the nodes below those of the [first](FIRST_PARTS), each by itself.
+    fn parts_below(&self, mut below: Vec<Inner<N>>, join: &impl Join) -> Vec<Part<N>> {
+        if below.len() > 1 {
+            let last = below.split_off(below.len() / 2);
+            let (mut parts, last) =
+                join.join(|| self.parts_below(below, join), || self.parts_below(last, join));
+            parts.extend(last);
+            return parts;
+        }
+        let part = |inner| {
+            let mut layout = Layout::new(self, usize::MAX);
+            layout.node(open(inner, FIRST_PARTS + 1), FIRST_PARTS + 1);
+            layout.part
+        };
+        below.into_iter().map(part).collect()
+    }
 }
 
-/// The triangles of a block, and after them as often as need be [`NO_PRIM`].
-type Slot<const N: usize> = [u32; N];
+/// Nodes, of which the first is above all others, and what is in their leaves. Whatever is numbered counts
+/// from the first of this part.
+struct Part<const N: usize> {
+    nodes: Vec<WideNode<N>>,
+    /// Of the whole, as far as it is known here.
+    depth: usize,
+    /// The triangles of each block, and after them as often as need be [`NO_PRIM`].
+    blocks: Vec<[u32; N]>,
+    /// Spheres and cones.
+    round: [Round; KINDS - 1],
+}
+
+/// Primitives of a kind, each of which has a slot of its own, and the nodes and lanes of their leaves: their
+/// slots count from the first of the kind.
+#[derive(Default)]
+struct Round {
+    prims: Vec<u32>,
+    leaves: Vec<(usize, usize)>,
+}
 
 /// No triangle.
 const NO_PRIM: u32 = u32::MAX;
 
-impl<const N: usize> Converter<'_, N> {
+impl<const N: usize> Default for Part<N> {
+    fn default() -> Self {
+        Part { nodes: Vec::new(), depth: 0, blocks: Vec::new(), round: Default::default() }
+    }
+}
+
+impl<const N: usize> Part<N> {
+    /// Adds what is below the child in a lane of a node.
+    fn append(&mut self, (node, lane): (usize, usize), part: Part<N>) {
+        let (nodes, blocks) = (self.nodes.len(), self.blocks.len());
+        self.nodes[node].set_child(lane, Child::node(nodes));
+        self.nodes.extend(part.nodes.iter().map(|node| node.after(nodes, blocks)));
+        self.blocks.extend(part.blocks);
+        self.depth = self.depth.max(part.depth);
+        for (round, Round { prims, leaves }) in self.round.iter_mut().zip(part.round) {
+            for (node, lane) in leaves {
+                let child = part.nodes[node].child(lane).after(round.prims.len());
+                self.nodes[nodes + node].set_child(lane, child);
+                round.leaves.push((nodes + node, lane));
+            }
+            round.prims.extend(prims);
+        }
+    }
+}
+
+/// A part that grows.
+struct Layout<'a, const N: usize> {
+    blocks: &'a Blocks<'a, N>,
+    part: Part<N>,
+    /// Nodes below this depth are not laid out but put aside, with the node and the lane that they are
+    /// children of.
+    last: usize,
+    below: Vec<((usize, usize), Inner<N>)>,
+    /// The primitives of one leaf.
+    prims: Vec<u32>,
+}
+
+impl<'a, const N: usize> Layout<'a, N> {
+    fn new(blocks: &'a Blocks<'a, N>, last: usize) -> Self {
+        Layout { blocks, part: Part::default(), last, below: Vec::new(), prims: Vec::new() }
+    }
+
     /// Lays out a node and all below, and returns where it is.
     fn node(&mut self, children: Vec<Subtree<N>>, depth: usize) -> usize {
-        let at = self.wide.nodes.len();
-        self.wide.nodes.push(WideNode::EMPTY);
-        self.wide.depth = self.wide.depth.max(depth);
+        let at = self.part.nodes.len();
+        self.part.nodes.push(WideNode::EMPTY);
+        self.part.depth = self.part.depth.max(depth);
         for (lane, child) in in_halves(children).into_iter().enumerate() {
-            self.wide.nodes[at].set_box(lane, child.aabb());
+            self.part.nodes[at].set_box(lane, child.aabb());
             let child = match child {
+                Subtree::Inner(inner) if depth == self.last => {
+                    self.below.push(((at, lane), inner));
+                    continue;
+                }
                 Subtree::Inner(inner) => Child::node(self.node(open(inner, depth + 1), depth + 1)),
                 Subtree::Leaf(node) => self.leaf(&node, (at, lane)),
             };
-            self.wide.nodes[at].set_child(lane, child);
+            self.part.nodes[at].set_child(lane, child);
         }
-        self.wide.nodes[at].set_order();
+        self.part.nodes[at].set_order();
         at
     }
 
     /// Lays out the primitives of all leaves below; `place` is the child's.
     fn leaf(&mut self, node: &build::Node, place: (usize, usize)) -> Child {
-        let Converter { primitives, blocks, wide, prims, slots, .. } = self;
+        let Layout { blocks, part, prims, .. } = self;
         prims.clear();
         node.leaves(&mut |_, range| {
             prims.extend(blocks.references[range].iter().map(Reference::prim));
         });
-        // Of a box that was cut there may be several pieces.
-        prims.sort_unstable();
-        prims.dedup();
-        let kind = kind(&blocks.counts, prims[0]);
-        self.leaves[kind].push(place);
-        if kind == 0 {
-            let first = slots.len();
-            slots.extend(prims.chunks(N).map(|prims| {
-                let mut slot = [NO_PRIM; N];
-                slot[..prims.len()].copy_from_slice(prims);
-                slot
-            }));
-            Child::leaf(first..slots.len())
-        } else if kind == 1 {
-            let first = wide.spheres.len();
-            wide.spheres.extend(prims.iter().map(|&prim| sphere(primitives, prim)));
-            Child::leaf(first..wide.spheres.len())
-        } else {
-            let first = wide.cones.len();
-            wide.cones.extend(prims.iter().map(|&prim| cone(primitives, prim)));
-            Child::leaf(first..wide.cones.len())
+        if blocks.pieces {
+            prims.sort_unstable();
+            prims.dedup();
         }
+        let Some(kind) = kind(&blocks.counts, prims[0]).checked_sub(1) else {
+            let first = part.blocks.len();
+            part.blocks.extend(prims.chunks(N).map(|prims| {
+                let mut block = [NO_PRIM; N];
+                block[..prims.len()].copy_from_slice(prims);
+                block
+            }));
+            return Child::leaf(first..part.blocks.len());
+        };
+        let round = &mut part.round[kind];
+        let first = round.prims.len();
+        round.prims.extend(&*prims);
+        round.leaves.push(place);
+        Child::leaf(first..round.prims.len())
     }
 }
 
-/// The least number of blocks of which the halves may be filled at once.
-const PARALLEL_BLOCKS: usize = 1024;
-
-/// Puts the triangles that slots name into as many blocks.
-fn fill<const N: usize>(
-    primitives: &Primitives,
-    slots: &[Slot<N>],
-    blocks: &mut [RecordBlock<N>],
-    join: &impl Join,
-) {
-    if slots.len() >= PARALLEL_BLOCKS {
-        let ((slots, more_slots), (blocks, more_blocks)) =
-            (slots.split_at(slots.len() / 2), blocks.split_at_mut(slots.len() / 2));
-        join.join(
-            || fill(primitives, slots, blocks, join),
-            || fill(primitives, more_slots, more_blocks, join),
-        );
-        return;
-    }
-    for (slot, block) in slots.iter().zip(blocks) {
-        let mut records = [Record::nothing(); N];
-        let prims = slot.iter().take_while(|&&prim| prim != NO_PRIM);
-        let count =
-            records.iter_mut().zip(prims).map(|(to, &i)| *to = record(primitives, i)).count();
-        *block = RecordBlock::new(&records[..count]);
-    }
+/// The block of some triangles.
+fn block<const N: usize>(primitives: &Primitives, prims: &[u32; N]) -> RecordBlock<N> {
+    let mut records = [Record::nothing(); N];
+    let prims = prims.iter().take_while(|&&prim| prim != NO_PRIM);
+    let count = records.iter_mut().zip(prims).map(|(to, &i)| *to = record(primitives, i)).count();
+    RecordBlock::new(&records[..count])
 }
 
 /// The children of a node at that depth; the root's is 1.

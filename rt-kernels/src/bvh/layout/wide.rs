@@ -77,6 +77,15 @@ impl<const N: usize> WideNode<N> {
         self.children[lane] = child.0;
     }
 
+    /// The same after so many nodes, and its leaves after so many slots.
+    pub(super) fn after(mut self, nodes: usize, slots: usize) -> Self {
+        for child in self.children.iter_mut().filter(|child| **child != Child::NONE.0) {
+            let one = Child(*child);
+            *child = one.after(if one.is_leaf() { slots } else { nodes }).0;
+        }
+        self
+    }
+
     /// The children and their boxes.
     pub(crate) fn boxes(&self) -> impl Iterator<Item = (Child, Aabb)> {
         let lanes = (0..N).map(|lane| (self.child(lane), self.aabb(lane)));
@@ -175,6 +184,11 @@ impl Child {
 
     pub(super) fn leaf(slots: Range<usize>) -> Child {
         Child((slots.start as u32) << 4 | slots.len() as u32)
+    }
+
+    /// The same after so many nodes, or slots if it is a leaf.
+    pub(super) fn after(self, before: usize) -> Child {
+        Child(self.0 + ((before as u32) << 4))
     }
 
     /// Whether it is a leaf; [`NONE`](Child::NONE) counts as one.
