@@ -215,8 +215,7 @@ mod tests {
                 corners: [1, 2, 3].map(|k| wave(i) + wave(9 * i + k) * size + glam::Vec3::Z * 2.0),
             }
         };
-        let records: Vec<_> = (0..7).map(|i| Record::corners(&triangle(i), i as u32)).collect();
-        RecordBlock::new(&records)
+        RecordBlock::new((0..7).map(|i| Record::corners(&triangle(i), i as u32)))
     }
 
     /// How many triangles are out of reach of the beam, and how many of those of some ray.
@@ -295,7 +294,7 @@ mod tests {
                 }
             }
             for level in Level::available() {
-                let block = RecordBlock::new(&records);
+                let block = RecordBlock::new(records.iter().copied());
                 let counts = dispatch!(level, s => grazed(s, &block, &slopes));
                 hits += counts[0];
                 left_out += counts[1];

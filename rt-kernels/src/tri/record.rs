@@ -169,10 +169,11 @@ impl<const N: usize> RecordBlock<N> {
     ///
     /// # Panics
     /// If there are more.
-    pub fn new(records: &[Record]) -> Self {
+    #[inline(always)]
+    pub fn new(records: impl IntoIterator<Item = Record>) -> Self {
         let (numbers, words) = ([[[f32::NAN; N]; 3]; 3], [Self::NO_PRIM; N]);
         let mut block = RecordBlock { numbers, words };
-        for (lane, record) in records.iter().enumerate() {
+        for (lane, record) in records.into_iter().enumerate() {
             for (rows, row) in block.numbers.iter_mut().zip(record.rows) {
                 for (numbers, number) in rows.iter_mut().zip(row.numbers) {
                     numbers[lane] = number;

@@ -22,7 +22,10 @@ impl Triangles {
     pub fn new<K: TriangleKernel>(triangles: &[Triangle]) -> Triangles {
         let numbered = (0..).zip(triangles);
         let records: Vec<_> = numbered.map(|(prim, triangle)| K::record(triangle, prim)).collect();
-        let blocks = records.chunks(<RecordBlock>::LANES).map(RecordBlock::new).collect();
+        let blocks = records
+            .chunks(<RecordBlock>::LANES)
+            .map(|records| RecordBlock::new(records.iter().copied()))
+            .collect();
         Triangles { records, blocks }
     }
 }

@@ -48,13 +48,7 @@ pub(super) fn build_from(
     depth: usize,
     join: &impl Join,
 ) -> Tree {
-    let mut order = Reference::all(primitives, join);
-    let binned = Binned::new(block, join);
-    let root = (!order.is_empty()).then(|| {
-        let extent = binned.extent(&order);
-        binned.subtree(&mut order, extent, 0, depth)
-    });
-    Tree { root, order }
+    Binned::new(block, join).tree(primitives, depth)
 }
 
 /// How it is built. No tree depends on the level or on `join`.
@@ -70,6 +64,16 @@ impl<'a, J: Join> Binned<'a, J> {
         // What is wrong with the environment is told where rays are traced.
         let best = Level::best().ok().or_else(|| Level::available().next_back());
         Binned { level: best.expect("there is always one"), block, join }
+    }
+
+    /// The tree of all primitives, as if the root were at that depth.
+    fn tree(&self, primitives: &Primitives, depth: usize) -> Tree {
+        let mut order = Reference::all(primitives, self.join);
+        let root = (!order.is_empty()).then(|| {
+            let extent = self.extent(&order);
+            self.subtree(&mut order, extent, 0, depth)
+        });
+        Tree { root, order }
     }
 
     /// The tree of these references, which begin at `first` of all; `depth` is that of its root.
@@ -104,12 +108,12 @@ impl<'a, J: Join> Binned<'a, J> {
 
     /// Where these references are.
     pub(super) fn extent(&self, references: &[Reference]) -> Extent {
-        if references.len() >= PARALLEL {
-            let (left, right) = references.split_at(references.len() / 2);
-            let (left, right) = self.join.join(|| self.extent(left), || self.extent(right));
-            return left.and(&right);
+        if references.len() < PARALLEL {
+            return dispatch!(self.level, s => Extent::of(s, references));
         }
-        references.iter().fold(Extent::none(), |all, one| all.and(&Extent::of(one)))
+        let (left, right) = references.split_at(references.len() / 2);
+        let (left, right) = self.join.join(|| self.extent(left), || self.extent(right));
+        Extent { side: left.side.and(&right.side), centers: left.centers.union(&right.centers) }
     }
 
     /// The cheapest split with something on both sides.
@@ -203,18 +207,16 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    fn none() -> Extent {
-        Extent { side: Side::empty(), centers: Bounds::empty() }
-    }
-
-    fn of(reference: &Reference) -> Extent {
-        let side = Side { bounds: *reference.bounds(), count: 1 };
-        Extent { side, centers: Bounds::point(reference.center()) }
-    }
-
-    fn and(mut self, other: &Extent) -> Extent {
-        self.side.add(&other.side.bounds, other.side.count);
-        Extent { centers: self.centers.union(&other.centers), ..self }
+    #[inline(always)]
+    fn of<S: Simd>(s: S, references: &[Reference]) -> Extent {
+        let [mut bounds, mut centers] = [S::f32x8::splat(s, f32::INFINITY); 2];
+        for reference in references {
+            let lanes = reference.bounds().lanes(s);
+            bounds = bounds.min(lanes);
+            centers = centers.min(point::<S>(center::<S>(lanes)));
+        }
+        let side = Side { bounds: Bounds::new(bounds), count: references.len() };
+        Extent { side, centers: Bounds::new(centers) }
     }
 }
 
@@ -318,25 +320,31 @@ impl<S: Simd> Along<S> {
         Along { origin, scale, last: S::f32x4::splat(s, (bins - 1) as u32 as f32) }
     }
 
-    /// Where twice a centre is on each axis, in bins from the first. (`max` makes 0 of the NaN of an axis
-    /// without extent.)
+    /// Where twice a centre is on each axis, in bins from the first; NaN on an axis without extent.
     #[inline(always)]
-    fn of(&self, s: S, center: S::f32x4) -> S::f32x4 {
-        let along = (center - self.origin) * self.scale;
-        along.max(S::f32x4::splat(s, 0.0)).min(self.last)
+    fn of(&self, center: S::f32x4) -> S::f32x4 {
+        (center - self.origin) * self.scale
     }
 
     /// Puts a reference into its bins.
     #[inline(always)]
     fn put<const B: usize>(&self, s: S, reference: &Reference, bins: &mut Bins<B>) {
         let lanes = reference.bounds().lanes(s);
-        let [x, y, z, _] = self.of(s, center::<S>(lanes)).to_i32_fast().to_array();
+        // `max` makes 0 of NaN.
+        let along = self.of(center::<S>(lanes)).max(S::f32x4::splat(s, 0.0)).min(self.last);
+        let [x, y, z, _] = along.to_i32_fast().to_array();
         for (bins, place) in bins.iter_mut().zip([x, y, z]) {
             let bin = &mut bins[place as usize % B];
             bin.bounds = Bounds::new(bin.bounds.lanes(s).min(lanes));
             bin.count += 1;
         }
     }
+}
+
+/// The box of one point.
+#[inline(always)]
+fn point<S: Simd>(point: S::f32x4) -> S::f32x8 {
+    S::f32x8::concat(point, -point)
 }
 
 /// Twice the centre of a box.
@@ -386,16 +394,18 @@ impl Split {
         let [mut lefts, mut rights] = [none; 2];
         let (axis, mut middle) = (self.axis, 0);
         for next in 0..references.len() {
-            let center = center::<S>(references[next].bounds().lanes(s));
-            let left = along.of(s, center).lt(border).bitmask() >> axis & 1;
-            let point = S::f32x8::concat(center, -center);
+            let reference = references[next];
+            let center = center::<S>(reference.bounds().lanes(s));
+            let left = along.of(center).lt(border).bitmask() >> axis & 1;
+            let point = point::<S>(center);
             let other =
                 S::f32x8::splat(s, if left == 1 { f32::NEG_INFINITY } else { f32::INFINITY });
             lefts = lefts.min(point.max(other));
             rights = rights.min(point.max(-other));
             // Those from `middle` on go right, so that it is right to swap in any case: a branch here
             // is one that no CPU foretells.
-            references.swap(next, middle);
+            references[next] = references[middle];
+            references[middle] = reference;
             middle += left as usize;
         }
         (middle, [lefts, rights].map(Bounds::new))
@@ -410,4 +420,100 @@ fn swap(a: &mut [Reference], b: &mut [Reference], join: &impl Join) {
     let middle = a.len() / 2;
     let ((a, more_a), (b, more_b)) = (a.split_at_mut(middle), b.split_at_mut(middle));
     join.join(|| swap(a, b, join), || swap(more_a, more_b, join));
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::bvh::build::{Content, Sequential};
+    use crate::geom::{Aabb, Triangle};
+
+    /// Enough for halves to be passed over by themselves; some in one plane, some in one place.
+    fn scene() -> Primitives {
+        let triangle = |i: usize| {
+            let at = |k: usize| (Vec3::new(0.61, 1.37, 2.71) * (i * k) as f32).map(f32::sin);
+            let heap = [at(1), at(2) * Vec3::new(1.0, 0.0, 1.0), Vec3::ONE * 2.0][i % 3];
+            Triangle { corners: [3, 5, 7].map(|k| heap + at(k) * 0.01) }
+        };
+        let triangles = (0..2 * PARALLEL + 100).map(triangle).collect();
+        Primitives { triangles, ..Primitives::default() }
+    }
+
+    /// All nodes, the boxes of leaves with what is in them.
+    fn nodes(node: &Node, order: &[Reference], all: &mut Vec<(Aabb, Vec<u32>)>) {
+        let prims = match &node.content {
+            Content::Inner(children) => {
+                children.iter().for_each(|child| nodes(child, order, all));
+                Vec::new()
+            }
+            Content::Leaf(range) => order[range.clone()].iter().map(Reference::prim).collect(),
+        };
+        all.push((node.aabb, prims));
+    }
+
+    #[test]
+    fn every_level_builds_the_same_tree() {
+        let scene = scene();
+        let tree = |level| {
+            let Tree { root, order } =
+                Binned { level, block: Block::of(8), join: &Sequential }.tree(&scene, 0);
+            let mut all = Vec::new();
+            nodes(&root.expect("there are primitives"), &order, &mut all);
+            all
+        };
+        let mut levels = Level::available();
+        let first = tree(levels.next().expect("scalar is always there"));
+        assert!(first.len() > scene.len() / 8, "{} nodes", first.len());
+        for level in levels {
+            assert!(tree(level) == first, "{level}");
+        }
+    }
+
+    /// By bins that are filled one reference after the other in double precision.
+    #[test]
+    fn a_split_is_the_cheapest_between_bins() {
+        let scene = scene();
+        let join = &Sequential;
+        let binned = Binned::new(Block::ONE, join);
+        for count in [2, 7, 40, APART + 1, FAR_APART + 2, PARALLEL + 1] {
+            let references = &Reference::all(&scene, join)[..count];
+            let extent = binned.extent(references);
+            let split = binned.best_split(references, &extent.centers).expect("they are apart");
+            let boxes: Vec<Aabb> = references.iter().map(|one| one.bounds().aabb()).collect();
+            let bins = bins_for(count);
+            let mut least = f64::INFINITY;
+            for axis in 0..3 {
+                let center = |aabb: &Aabb| aabb.axes[axis][0] + aabb.axes[axis][1];
+                let low = boxes.iter().map(center).fold(f32::INFINITY, f32::min);
+                let high = boxes.iter().map(center).fold(f32::NEG_INFINITY, f32::max);
+                let scale = bins as f32 / (high - low);
+                let bin = |aabb: &Aabb| (((center(aabb) - low) * scale) as usize).min(bins - 1);
+                for border in 1..bins {
+                    let side = |left: bool| {
+                        let those = boxes.iter().filter(|aabb| (bin(aabb) < border) == left);
+                        let whole = those.clone().fold(Aabb::EMPTY, |all, one| all.union(one));
+                        let [x, y, z] = whole.extent().as_dvec3().to_array();
+                        (those.count(), x * y + y * z + z * x)
+                    };
+                    let [(left, left_area), (right, right_area)] = [side(true), side(false)];
+                    if left > 0 && right > 0 {
+                        least = least.min(left as f64 * left_area + right as f64 * right_area);
+                    }
+                }
+            }
+            let cost = f64::from(split.cost);
+            assert!((cost - least).abs() <= 1e-5 * least, "{count}: {cost}, not {least}");
+            let mut sorted = references.to_vec();
+            let sides = binned.partition(&split, &mut sorted);
+            let (left, right) = sorted.split_at(sides[0].side.count);
+            for (extent, side) in sides.iter().zip([left, right]) {
+                let found = binned.extent(side);
+                assert_eq!(extent.side.count, side.len());
+                assert_eq!(extent.side.bounds.aabb(), found.side.bounds.aabb());
+                assert_eq!(extent.centers.aabb(), found.centers.aabb());
+            }
+        }
+    }
 }

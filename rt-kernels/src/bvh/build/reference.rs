@@ -38,12 +38,6 @@ impl Bounds {
         Bounds::new(f32x8::from(f32::INFINITY))
     }
 
-    /// The box of one point.
-    #[inline(always)]
-    pub(super) fn point(point: f32x4) -> Bounds {
-        Bounds::new(f32x8::concat(point, -point))
-    }
-
     /// All points between two values on one axis.
     #[inline(always)]
     pub(super) fn slab(axis: usize, [low, high]: [f32; 2]) -> Bounds {

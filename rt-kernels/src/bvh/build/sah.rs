@@ -79,6 +79,12 @@ impl Side {
         self.count += count;
     }
 
+    /// Both.
+    pub(super) fn and(mut self, other: &Side) -> Side {
+        self.add(&other.bounds, other.count);
+        self
+    }
+
     /// The cost of testing all.
     #[inline(always)]
     pub(super) fn cost(&self, block: Block) -> f32 {

@@ -10,6 +10,9 @@
 
 use std::ops::Range;
 
+use simd4::f32x4;
+use simd4::prelude::*;
+
 use super::MAX_SLOTS;
 use super::collapse::{Inner, Subtree};
 use super::wide::{Child, Wide, WideNode, cone, record, sphere};
@@ -17,7 +20,7 @@ use crate::bvh::build::{self, Content, Join, Reference};
 use crate::collect::collect;
 use crate::geom::Aabb;
 use crate::primitives::{KINDS, Primitives, kind};
-use crate::tri::{Record, RecordBlock};
+use crate::tri::RecordBlock;
 
 /// On so many levels from the root on, what is largest is opened first: most rays pass all of these
 /// nodes, and it counts how soon the first hit is found. With the least sum of surfaces there too, a
@@ -44,7 +47,7 @@ impl<const N: usize> Wide<N> {
         let [spheres, cones] = &round;
         let mut wide = Wide {
             nodes,
-            blocks: collect(blocks.len(), join, |i| block(primitives, &blocks[i])),
+            blocks: self::blocks(primitives, &blocks, join),
             spheres: spheres.prims.iter().map(|&prim| sphere(primitives, prim)).collect(),
             cones: cones.prims.iter().map(|&prim| cone(primitives, prim)).collect(),
             counts,
@@ -263,7 +266,8 @@ impl<'a, const N: usize> Layout<'a, N> {
         let at = self.part.nodes.len();
         self.part.nodes.push(WideNode::EMPTY);
         self.part.depth = self.part.depth.max(depth);
-        for (lane, child) in in_halves(children).into_iter().enumerate() {
+        let lanes = lanes(&children);
+        for (lane, child) in lanes.into_iter().zip(children) {
             self.part.nodes[at].set_box(lane, child.aabb());
             let child = match child {
                 Subtree::Inner(inner) if depth == self.last => {
@@ -307,12 +311,23 @@ impl<'a, const N: usize> Layout<'a, N> {
     }
 }
 
-/// The block of some triangles.
-fn block<const N: usize>(primitives: &Primitives, prims: &[u32; N]) -> RecordBlock<N> {
-    let mut records = [Record::nothing(); N];
-    let prims = prims.iter().take_while(|&&prim| prim != NO_PRIM);
-    let count = records.iter_mut().zip(prims).map(|(to, &i)| *to = record(primitives, i)).count();
-    RecordBlock::new(&records[..count])
+/// So many blocks before the triangles of one are needed, they are sent for.
+const AHEAD: usize = 4;
+
+/// The blocks of some triangles each.
+fn blocks<const N: usize>(
+    primitives: &Primitives,
+    blocks: &[[u32; N]],
+    join: &impl Join,
+) -> Vec<RecordBlock<N>> {
+    let s = <f32x4 as Lanes>::Simd::TOKEN;
+    let prims = |i: usize| blocks[i].iter().take_while(|&&prim| prim != NO_PRIM);
+    collect(blocks.len(), join, |i| {
+        for &prim in blocks.get(i + AHEAD).into_iter().flatten() {
+            s.prefetch(primitives.triangles.as_ptr().wrapping_add(prim as usize));
+        }
+        RecordBlock::new(prims(i).map(|&prim| record(primitives, prim)))
+    })
 }
 
 /// The children of a node at that depth; the root's is 1.
@@ -320,25 +335,40 @@ fn open<const N: usize>(inner: Inner<N>, depth: usize) -> Vec<Subtree<N>> {
     if depth <= FIRST_DEPTHS { inner.open_largest() } else { inner.open() }
 }
 
-/// The children in the order of their lanes, so that each half of a node has neighbours.
-fn in_halves<const N: usize>(mut children: Vec<Subtree<N>>) -> Vec<Subtree<N>> {
+/// The lanes of a node's children: those of each half are neighbours.
+fn lanes<const N: usize>(children: &[Subtree<N>]) -> [usize; N] {
+    let mut lanes = std::array::from_fn(|i| i);
     if children.len() > 4 {
-        sort_apart(&mut children, Subtree::aabb);
+        let axis = axis_apart(children.iter().map(Subtree::aabb));
+        let mut along = [0.0; N];
+        let along = &mut along[..children.len()];
+        along.iter_mut().zip(children).for_each(|(at, child)| *at = middle(child.aabb(), axis));
+        // Each comes after those that are less far along.
+        for (i, lane) in lanes.iter_mut().enumerate().take(children.len()) {
+            let (at, (before, after)) = (along[i], along.split_at(i));
+            let before = before.iter().filter(|other| **other <= at).count();
+            *lane = before + after.iter().filter(|other| **other < at).count();
+        }
     }
-    children
+    lanes
 }
 
-/// Sorts along the axis on which the boxes' centres are furthest apart.
-fn sort_apart<T>(parts: &mut [T], aabb: impl Fn(&T) -> &Aabb) {
-    let center = |part: &T| aabb(part).min() + aabb(part).max();
-    let centers = parts.iter().fold(Aabb::EMPTY, |all, part| all.union(&Aabb::point(center(part))));
-    let axis = centers.extent().max_position();
-    parts.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
+/// The axis on which the boxes' centres are furthest apart.
+fn axis_apart<'a>(boxes: impl Iterator<Item = &'a Aabb>) -> usize {
+    let centers = boxes.map(|aabb| Aabb::point(aabb.min() + aabb.max()));
+    centers.fold(Aabb::EMPTY, |all, one| all.union(&one)).extent().max_position()
+}
+
+/// Twice where the centre is on an axis.
+fn middle(aabb: &Aabb, axis: usize) -> f32 {
+    let [low, high] = aabb.axes[axis];
+    low + high
 }
 
 /// Two nodes with one half each of some nodes, parted where their boxes' centres are furthest apart.
 fn halves(mut nodes: Vec<build::Node>) -> [build::Node; 2] {
-    sort_apart(&mut nodes, |node| &node.aabb);
+    let axis = axis_apart(nodes.iter().map(|node| &node.aabb));
+    nodes.sort_by(|a, b| middle(&a.aabb, axis).total_cmp(&middle(&b.aabb, axis)));
     let right = nodes.split_off(nodes.len() / 2);
     [nodes, right].map(|children| {
         let aabb = children.iter().fold(Aabb::EMPTY, |all, child| all.union(&child.aabb));

@@ -19,7 +19,7 @@ use crate::geom::Aabb;
 use crate::packet::Boxes;
 use crate::primitives::{KINDS, Primitives, SphereRecord};
 use crate::quadric::cone::ConeRecord;
-use crate::tri::{Method, Record, RecordBlock};
+use crate::tri::{Record, RecordBlock, TriangleKernel, Watertight};
 
 /// Up to N boxes by side (SoA), and what is in them.
 #[derive(Clone, Copy, Debug)]
@@ -315,8 +315,7 @@ impl<const N: usize> Refit for Wide<N> {
 
     fn replace(&mut self, primitives: &Primitives, own_boxes: &[Aabb]) {
         for block in &mut self.blocks {
-            let records: Vec<_> = block.prims().map(|prim| record(primitives, prim)).collect();
-            *block = RecordBlock::new(&records);
+            *block = RecordBlock::new(block.prims().map(|prim| record(primitives, prim)));
         }
         for record in &mut self.spheres {
             *record = sphere(primitives, record.prim);
@@ -347,8 +346,9 @@ impl<const N: usize> Refit for Wide<N> {
     }
 }
 
+#[inline(always)]
 pub(super) fn record(primitives: &Primitives, prim: u32) -> Record {
-    Method::default().record(&primitives.triangles[prim as usize], prim)
+    <Watertight>::record(&primitives.triangles[prim as usize], prim)
 }
 
 pub(super) fn sphere(primitives: &Primitives, prim: u32) -> SphereRecord {
