@@ -266,8 +266,7 @@ impl<'a, const N: usize> Layout<'a, N> {
         let at = self.part.nodes.len();
         self.part.nodes.push(WideNode::EMPTY);
         self.part.depth = self.part.depth.max(depth);
-        let lanes = lanes(&children);
-        for (lane, child) in lanes.into_iter().zip(children) {
+        for (lane, child) in in_lanes(children).into_iter().flatten().enumerate() {
             self.part.nodes[at].set_box(lane, child.aabb());
             let child = match child {
                 Subtree::Inner(inner) if depth == self.last => {
@@ -335,20 +334,20 @@ fn open<const N: usize>(inner: Inner<N>, depth: usize) -> Vec<Subtree<N>> {
     if depth <= FIRST_DEPTHS { inner.open_largest() } else { inner.open() }
 }
 
-/// The lanes of a node's children: those of each half are neighbours.
-fn lanes<const N: usize>(children: &[Subtree<N>]) -> [usize; N] {
-    let mut lanes = std::array::from_fn(|i| i);
+/// A node's children, each in its lane: those of each half are neighbours.
+fn in_lanes<const N: usize>(children: Vec<Subtree<N>>) -> [Option<Subtree<N>>; N] {
+    let mut along = [0.0; N];
+    let along = &mut along[..children.len()];
     if children.len() > 4 {
         let axis = axis_apart(children.iter().map(Subtree::aabb));
-        let mut along = [0.0; N];
-        let along = &mut along[..children.len()];
-        along.iter_mut().zip(children).for_each(|(at, child)| *at = middle(child.aabb(), axis));
-        // Each comes after those that are less far along.
-        for (i, lane) in lanes.iter_mut().enumerate().take(children.len()) {
-            let (at, (before, after)) = (along[i], along.split_at(i));
-            let before = before.iter().filter(|other| **other <= at).count();
-            *lane = before + after.iter().filter(|other| **other < at).count();
-        }
+        along.iter_mut().zip(&children).for_each(|(at, child)| *at = middle(child.aabb(), axis));
+    }
+    let mut lanes = [const { None }; N];
+    for (i, child) in children.into_iter().enumerate() {
+        // After those that are less far along.
+        let (at, (before, after)) = (along[i], along.split_at(i));
+        let before = before.iter().filter(|other| **other <= at).count();
+        lanes[before + after.iter().filter(|other| **other < at).count()] = Some(child);
     }
     lanes
 }
