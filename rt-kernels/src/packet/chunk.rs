@@ -14,8 +14,6 @@ const MIXED: usize = 4;
 /// with what they find: registers of any size and single rays are loaded from it.
 #[repr(C, align(64))]
 pub struct Chunk {
-    /// The number of rays, and of lanes that registers have for them.
-    count: usize,
     pub(super) origin: [Column<f32>; 3],
     pub(super) dir: [Column<f32>; 3],
     pub(super) inv: [Column<f32>; 3],
@@ -29,6 +27,8 @@ pub struct Chunk {
     /// Of rays that are to go by themselves a bit for each axis on which the direction is negative, x lowest;
     /// above them the dominant axis.
     signs_and_axis: Column<u32>,
+    /// The number of rays. (After the columns, which are aligned as they come.)
+    count: usize,
     /// Rays with a negative direction, by axis.
     negative: [u64; 3],
     /// Rays whose dominant axis is x, and those where it is y.
