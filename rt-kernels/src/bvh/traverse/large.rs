@@ -1,7 +1,7 @@
 //! Up to 64 rays together over nodes of N children, from near to far.
 //!
-//! The children of a node are tested at once against all rays ([`beam`]); those that are left, ray by
-//! ray. Each child goes on with the rays that may hit it, a bit for each, and where it is entered
+//! The children of a node are tested at once against all rays ([`Beam`]); those that are left, and that
+//! not all rays pass, ray by ray. Each child goes on with the rays that may hit it, a bit for each, and where it is entered
 //! first. What was found closer since then drops rays, and with the last of them the child. In a
 //! leaf, rays with a common origin are filtered by [`EdgeVolumes`] before the triangle test. Where few
 //! are left, each goes on by itself, and they take [turns](super::turns): a ray that is on its way is
@@ -256,13 +256,17 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
         limit: f32,
     ) -> Children<B, N> {
         let s = self.s;
-        let (mask, enter, seen) = W::candidates::<B, N>(s, culling, node, limit);
+        let (mask, all, enter, seen) = W::candidates::<B, N>(s, culling, node, limit);
         let mut left = mask.bitmask();
         self.wide.prefetch(s, node, left);
         let mut children = Children { lanes: 0, enter: enter.to_array(), rays: [0; N] };
         while left != 0 {
             let lane = left.trailing_zeros() as usize & (N - 1);
             left &= left - 1;
+            if all >> lane & 1 == 1 {
+                children.add(lane, rays);
+                continue;
+            }
             let one = W::one::<B, S::f32s, N>(s, node, &seen, lane);
             let mut passing = 0;
             for first in registers::<S>(rays) {
@@ -270,9 +274,7 @@ impl<S: Simd, C: Counters, const N: usize> Traversal<'_, S, C, N> {
                 let may_hit = W::may_hit(s, &one, &self.packet, first / S::LANES);
                 passing |= u64::from(may_hit.bitmask()) << first;
             }
-            passing &= rays;
-            children.rays[lane] = passing;
-            children.lanes |= u32::from(passing != 0) << lane;
+            children.add(lane, passing & rays);
         }
         children
     }
@@ -435,6 +437,15 @@ struct Children<B: SimdF32, const N: usize> {
     enter: B::Array,
     /// The rays, by child.
     rays: [u64; N],
+}
+
+impl<B: SimdF32, const N: usize> Children<B, N> {
+    /// Adds a child, if there are rays for it.
+    #[inline(always)]
+    fn add(&mut self, lane: usize, rays: u64) {
+        self.rays[lane] = rays;
+        self.lanes |= u32::from(rays != 0) << lane;
+    }
 }
 
 /// The first lanes of the registers that have some of the rays.

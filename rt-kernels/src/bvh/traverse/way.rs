@@ -1,6 +1,6 @@
 //! How many rays together are tested against the children of a node: by what they have in common.
 
-use simd4::SimdF32;
+use simd4::{SimdF32, SimdMask};
 
 use crate::bvh::layout::WideNode;
 use crate::packet::{LARGE, LargePacket, OwnBoxes};
@@ -20,13 +20,14 @@ pub(super) trait Way {
     /// The same of one child, in all lanes.
     type One<V: SimdF32>;
 
-    /// The children that some ray may hit with `t <= limit`, and where none enters before.
+    /// The children that some ray may hit with `t <= limit`, those of them that all are taken to hit, and
+    /// where none enters before.
     fn candidates<B: SimdF32, const N: usize>(
         s: B::Simd,
         culling: &Culling,
         node: &WideNode<N>,
         limit: f32,
-    ) -> (B::Mask, B, Self::Seen<B>);
+    ) -> (B::Mask, u32, B, Self::Seen<B>);
 
     /// The child in that lane.
     fn one<B: SimdF32, V: SimdF32<Simd = B::Simd>, const N: usize>(
@@ -61,9 +62,9 @@ impl Way for Pyramid {
         culling: &Culling,
         node: &WideNode<N>,
         limit: f32,
-    ) -> (B::Mask, B, Sides<B>) {
+    ) -> (B::Mask, u32, B, Sides<B>) {
         let found = culling.candidates::<B, _>(s, node, limit);
-        (found.mask, found.enter, Sides::new(&found))
+        (found.mask, found.all.bitmask(), found.enter, Sides::new(&found))
     }
 
     #[inline(always)]
@@ -103,9 +104,9 @@ impl Way for Spread {
         culling: &Culling,
         node: &WideNode<N>,
         limit: f32,
-    ) -> (B::Mask, B, ()) {
+    ) -> (B::Mask, u32, B, ()) {
         let (mask, enter) = interval::candidates(s, node, culling.beam, limit);
-        (mask, enter, ())
+        (mask, 0, enter, ())
     }
 
     #[inline(always)]
