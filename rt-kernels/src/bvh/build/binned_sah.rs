@@ -2,9 +2,10 @@
 //! of bins.
 //!
 //! A level of the tree passes over its references twice: to fill the bins, and to partition in place,
-//! which also finds by what the next level bins. Both passes go over halves of many references at
-//! once. The tree does not depend on `join`: least and greatest coordinates do not depend on the
-//! order, and halves are disjoint.
+//! which also finds by what the next level bins. Both passes are compiled for each level of instructions,
+//! and go over halves of many references at once. The tree depends neither on the level nor on `join`:
+//! each lane does the same operations everywhere, and how references are parted into halves, which are
+//! disjoint, depends on their number alone.
 //!
 //! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007. Deviation: all
 //! three axes are binned.
@@ -23,11 +24,11 @@ const BINS: usize = 16;
 /// The least number of references of which the halves may be passed over at once.
 const PARALLEL: usize = 1 << 15;
 
-/// From so many references on, every other one has bins of its own: neighbours go to the same bins, and
-/// the second would wait until the first is in memory.
+/// From so many references on, every other one is put into bins of its own: neighbours go to the same bins,
+/// and the second would wait until the first is in memory.
 const APART: usize = 64;
 
-/// From so many on, two of three have.
+/// From so many on, two of three are.
 const FAR_APART: usize = 1024;
 
 /// The bins an axis for so many references. Among few, more borders find nothing much cheaper, and to
@@ -246,7 +247,7 @@ impl Binning {
         }
     }
 
-    /// The same, where after each reference so many neighbours are in bins of their own first.
+    /// The same, where each of so many neighbours more is put into bins of its own before all are merged.
     #[inline(always)]
     fn fill_apart<S: Simd, const B: usize, const MORE: usize>(
         &self,
@@ -320,18 +321,18 @@ impl<S: Simd> Along<S> {
         Along { origin, scale, last: S::f32x4::splat(s, (bins - 1) as u32 as f32) }
     }
 
-    /// Where twice a centre is on each axis, in bins from the first; NaN on an axis without extent.
+    /// Where twice a centre is on each axis, in bins from the first. (`max` makes 0 of NaN, which is where
+    /// the least are on an axis with no extent, or with one so small that its reciprocal is infinite.)
     #[inline(always)]
-    fn of(&self, center: S::f32x4) -> S::f32x4 {
-        (center - self.origin) * self.scale
+    fn of(&self, s: S, center: S::f32x4) -> S::f32x4 {
+        ((center - self.origin) * self.scale).max(S::f32x4::splat(s, 0.0))
     }
 
     /// Puts a reference into its bins.
     #[inline(always)]
     fn put<const B: usize>(&self, s: S, reference: &Reference, bins: &mut Bins<B>) {
         let lanes = reference.bounds().lanes(s);
-        // `max` makes 0 of NaN.
-        let along = self.of(center::<S>(lanes)).max(S::f32x4::splat(s, 0.0)).min(self.last);
+        let along = self.of(s, center::<S>(lanes)).min(self.last);
         let [x, y, z, _] = along.to_i32_fast().to_array();
         for (bins, place) in bins.iter_mut().zip([x, y, z]) {
             let bin = &mut bins[place as usize % B];
@@ -396,7 +397,7 @@ impl Split {
         for next in 0..references.len() {
             let reference = references[next];
             let center = center::<S>(reference.bounds().lanes(s));
-            let left = along.of(center).lt(border).bitmask() >> axis & 1;
+            let left = along.of(s, center).lt(border).bitmask() >> axis & 1;
             let point = point::<S>(center);
             let other =
                 S::f32x8::splat(s, if left == 1 { f32::NEG_INFINITY } else { f32::INFINITY });
@@ -469,6 +470,26 @@ mod tests {
         for level in levels {
             assert!(tree(level) == first, "{level}");
         }
+    }
+
+    /// The reciprocals of such extents are infinite.
+    #[test]
+    fn leaves_are_in_their_boxes_however_small_the_scene() {
+        let mut scene = scene();
+        scene.triangles.truncate(5000);
+        let small = 2.0f32.powi(-138);
+        for corner in scene.triangles.iter_mut().flat_map(|triangle| &mut triangle.corners) {
+            *corner *= small;
+        }
+        let Tree { root, order } = build(&scene, Block::of(8), &Sequential);
+        let (mut leaves, mut count) = (0, 0);
+        root.expect("there are primitives").leaves(&mut |node, range| {
+            leaves += 1;
+            count += range.len();
+            let boxes = order[range].iter().map(|one| one.bounds().aabb());
+            assert_eq!(node.aabb, boxes.fold(Aabb::EMPTY, |all, one| all.union(&one)));
+        });
+        assert!(count == 5000 && leaves > 600, "{count} in {leaves}");
     }
 
     /// By bins that are filled one reference after the other in double precision.
