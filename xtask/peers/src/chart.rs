@@ -155,15 +155,18 @@ fn panel(svg: &mut String, title: &str, groups: &[Group], width: f64) {
                 base - high,
                 each - 1.0
             );
-            // A bar may be cut: its number tells.
-            if peer == "rt" {
-                let _ = writeln!(
-                    svg,
-                    "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"10\" text-anchor=\"middle\" \
-                     stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\">{ratio:.2}</text>",
-                    x + each / 2.0,
-                    base - high - 3.0
-                );
+            // A bar may be cut: its number tells. What keeps it apart from lines is drawn before it, for
+            // whoever knows no other order.
+            for halo in [" stroke=\"white\" stroke-width=\"3\"", ""] {
+                if peer == "rt" {
+                    let _ = writeln!(
+                        svg,
+                        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"10\" \
+                         text-anchor=\"middle\"{halo}>{ratio:.2}</text>",
+                        x + each / 2.0,
+                        base - high - 3.0
+                    );
+                }
             }
         }
         let (x, y) = (x + GROUP / 2.0, base + 14.0);
