@@ -1,8 +1,8 @@
 //! Up to 64 rays together over nodes of N children, from near to far.
 //!
 //! The children of a node are tested at once against all rays ([`Beam`]); those that are left, and that
-//! not all rays pass, ray by ray. Each child goes on with the rays that may hit it, a bit for each, and where it is entered
-//! first. What was found closer since then drops rays, and with the last of them the child. In a
+//! not all rays pass, ray by ray. Each child goes on with the rays that may hit it, a bit for each, and
+//! where it is entered first. What was found closer since then drops rays, and with the last of them the child. In a
 //! leaf, rays with a common origin are filtered by [`EdgeVolumes`] before the triangle test. Where few
 //! are left, each goes on by itself, and they take [turns](super::turns): a ray that is on its way is
 //! still among the others, and goes no second way before it is back.

@@ -8,8 +8,8 @@
 //!
 //! A node's children that a ray may hit are put on its stack all at once, in the order that the node
 //! [guesses](crate::bvh::layout::WideNode) for rays of that octant, and the uppermost is where it goes next.
-//! Hits wait until all rays at leaves have
-//! had their turn; with each, what is entered behind it is dropped from the stack.
+//! Hits wait until all rays at leaves have had their turn; with each, what is entered behind it is dropped
+//! from the stack.
 //!
 //! **The answer** is that of every other traversal ([why](crate#why-the-answer-is-one)): boxes and
 //! triangles are decided as by [one ray at a time](super::wide), and hits do not depend on the order of
